@@ -1,0 +1,70 @@
+"""Shoal: design, test and deploy swarms that search for and track moving targets at sea.
+
+    >>> import shoal
+    >>> record = shoal.simulate(shoal.load("oceans2020"), runs=5)
+    >>> record.estimate("time_on_target")
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from shoal.version import VERSION as __version__
+
+if TYPE_CHECKING:
+    from shoal.core.draws import normal, uniform
+    from shoal.core.errors import ShoalError
+    from shoal.core.kernel import kernel
+    from shoal.core.units import Degrees, Meters, MetersPerSecond, Seconds
+    from shoal.record.files import open_record, save_record
+    from shoal.record.record import Record
+    from shoal.scenario.load import load, presets, to_toml
+    from shoal.scenario.schema import Scenario
+    from shoal.simulate import simulate
+    from shoal.simulation import Simulation
+    from shoal.strategies import strategy
+
+_HOMES = {
+    "shoal.core.draws": ("normal", "uniform"),
+    "shoal.core.errors": ("ShoalError",),
+    "shoal.core.kernel": ("kernel",),
+    "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Seconds"),
+    "shoal.record.files": ("open_record", "save_record"),
+    "shoal.record.record": ("Record",),
+    "shoal.scenario.load": ("load", "presets", "to_toml"),
+    "shoal.scenario.schema": ("Scenario",),
+    "shoal.simulate": ("simulate",),
+    "shoal.simulation": ("Simulation",),
+    "shoal.strategies": ("strategy",),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = [
+    "Degrees",
+    "Meters",
+    "MetersPerSecond",
+    "Record",
+    "Scenario",
+    "Seconds",
+    "ShoalError",
+    "Simulation",
+    "__version__",
+    "kernel",
+    "load",
+    "normal",
+    "open_record",
+    "presets",
+    "save_record",
+    "simulate",
+    "strategy",
+    "to_toml",
+    "uniform",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import on first use: `import shoal` and `shoal --help` load no compiler."""
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'shoal' has no attribute {name!r}; it has: {', '.join(__all__)}")
+    value = getattr(import_module(_HOME_OF[name]), name)
+    globals()[name] = value
+    return value

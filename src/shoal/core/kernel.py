@@ -1,0 +1,72 @@
+"""@kernel: our only spelling of numba.njit; the flags and the cache are chosen here, once.
+
+Numba's cache does not notice an edited function in another file and would return old numbers silently, so the
+cache lives in a folder named by a hash of all our kernel sources (docs/decisions/0002-kernel-cache.md).
+"""
+
+import hashlib
+import os
+import tempfile
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numba
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+_COMPILED_FOLDERS = ("core", "world", "strategies", "metrics", "engine")
+
+
+def kernel(function: Function) -> Function:
+    """Compile a function that other kernels call; it is compiled into them and not cached by itself."""
+    return numba.njit(function, **_FLAGS)  # type: ignore[no-any-return]
+
+
+def entry_kernel(function: Function) -> Function:
+    """Compile a function that Python calls, and keep the machine code on disk for the next process."""
+    outside = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = str(cache_folder())
+    try:
+        return numba.njit(function, cache=True, **_FLAGS)  # type: ignore[no-any-return]
+    finally:
+        numba.config.CACHE_DIR = outside
+
+
+def uncached(entry: Function) -> Function:
+    """Return a twin of an entry kernel that never touches the cache: for strategies whose source we do not hash."""
+    if numba.config.DISABLE_JIT:
+        return entry
+    return numba.njit(entry.py_func, **_FLAGS)  # type: ignore[attr-defined,no-any-return]
+
+
+# error_model="numpy": the check for division by zero would stop vectorization (2-3x slower). No fastmath: results
+# would depend on the processor. nogil: one thread per run scales to all cores.
+_FLAGS: dict[str, Any] = {"error_model": "numpy", "nogil": True}
+
+
+@cache
+def cache_folder() -> Path:
+    """Folder of the compiled kernels of exactly these sources; $SHOAL_CACHE_DIR moves it."""
+    base = os.environ.get("SHOAL_CACHE_DIR") or os.path.join(
+        os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache"), "shoal"
+    )
+    folder = Path(base) / f"kernels-{sources_hash()}"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError:  # a read-only home: compile once per process group instead of failing
+        return Path(tempfile.gettempdir()) / f"shoal-{os.getuid() if hasattr(os, 'getuid') else 0}" / folder.name
+
+
+@cache
+def sources_hash() -> str:
+    """First 16 hex digits of a hash over every kernel source and the compiler's version."""
+    digest = hashlib.sha256(numba.__version__.encode())
+    root = Path(__file__).parent.parent
+    for name in _COMPILED_FOLDERS:
+        for source in sorted((root / name).rglob("*.py")):
+            digest.update(source.read_bytes())
+    return digest.hexdigest()[:16]

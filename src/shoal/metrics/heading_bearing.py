@@ -1,0 +1,68 @@
+"""Heading-bearing correlation phi: who moves toward the target (+1), away from it (-1), or not at all (0)."""
+
+import math
+
+import numpy as np
+
+from shoal.core.kernel import kernel
+from shoal.metrics.tally import BINS
+
+STATIONARY = 0.1  # share of the top speed below which an agent counts as stationary
+CENTERS = np.linspace(-1.0, 1.0, BINS)
+
+
+@kernel
+def tally_heading_bearing(tally, batch, swarm, agents, targets, bearing_x, bearing_y, phi):  # type: ignore[no-untyped-def]
+    """Add phi_i = cos(angle between heading and bearing to the nearest target) to the histogram of i's fleet.
+
+    Kwa et al., Heterogeneous Swarms, Eq. 8. Positions after the move, targets before theirs; the heading is that of the
+    speed-limited velocity before the wall. Stationary agents count as phi = 0, as does an agent exactly on a target.
+    """
+    _nearest_bearing(swarm, agents, targets, bearing_x, bearing_y)
+    for i in range(agents):
+        vx = swarm.command_x[i]
+        vy = swarm.command_y[i]
+        along = vx * bearing_x[i] + vy * bearing_y[i]
+        length2 = (vx * vx + vy * vy) * (bearing_x[i] * bearing_x[i] + bearing_y[i] * bearing_y[i])
+        moves = not is_stationary(vx, vy, swarm.max_speed[i]) and length2 > 0.0
+        phi[i] = along / math.sqrt(length2) if moves else 0.0
+    begin = 0
+    for fleet in range(swarm.fleet_end.size):
+        end = swarm.fleet_end[fleet]
+        stationary = 0
+        for i in range(begin, end):
+            stationary += is_stationary(swarm.command_x[i], swarm.command_y[i], swarm.max_speed[i])
+        for i in range(begin, end):
+            tally.histogram[batch, fleet, bin_of(phi[i])] += 1
+        tally.stationary[batch, fleet] += stationary
+        begin = end
+
+
+@kernel
+def is_stationary(vx, vy, max_speed):  # type: ignore[no-untyped-def]
+    """Whether an agent is slower than a tenth of its top speed."""
+    limit = STATIONARY * max_speed
+    return vx * vx + vy * vy < limit * limit
+
+
+@kernel
+def bin_of(phi):  # type: ignore[no-untyped-def]
+    """Index of the bin of phi: 11 bins centered at -1, -0.8, ..., 1, the outer two half as wide."""
+    return min(max(int((phi + 1.0) * 5.0 + 0.5), 0), BINS - 1)
+
+
+@kernel
+def _nearest_bearing(swarm, agents, targets, bearing_x, bearing_y):  # type: ignore[no-untyped-def]
+    """Vector from each agent to its nearest target that is there."""
+    for i in range(agents):
+        bearing_x[i] = np.inf
+        bearing_y[i] = 0.0
+    for target in targets:
+        if target.present:
+            for i in range(agents):
+                dx = target.x - swarm.x[i]
+                dy = target.y - swarm.y[i]
+                known = bearing_x[i] * bearing_x[i] + bearing_y[i] * bearing_y[i]
+                nearer = dx * dx + dy * dy < known
+                bearing_x[i] = dx if nearer else bearing_x[i]
+                bearing_y[i] = dy if nearer else bearing_y[i]

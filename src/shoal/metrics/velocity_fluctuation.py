@@ -1,0 +1,31 @@
+"""Velocity fluctuation, from which Xi and the response are made."""
+
+import math
+
+from shoal.core.kernel import kernel
+
+
+@kernel
+def tally_velocity_fluctuation(tally, batch, swarm, agents, scratch):  # type: ignore[no-untyped-def]
+    """Add |u_i| = |v_i - mean v| of every agent, by fleet; v at the start of the step.
+
+    Kwa et al., Heterogeneous Swarms, Eq. 5. Eq. 7 as printed sums vectors that cancel to zero; the norm is meant.
+    """
+    mean_x = 0.0
+    mean_y = 0.0
+    for i in range(agents):
+        mean_x += swarm.vx[i]
+        mean_y += swarm.vy[i]
+    mean_x /= agents
+    mean_y /= agents
+    for i in range(agents):
+        ux = swarm.vx[i] - mean_x
+        uy = swarm.vy[i] - mean_y
+        scratch[i] = math.sqrt(ux * ux + uy * uy)
+    begin = 0
+    for fleet in range(swarm.fleet_end.size):
+        total = 0.0
+        for i in range(begin, swarm.fleet_end[fleet]):
+            total += scratch[i]
+        begin = swarm.fleet_end[fleet]
+        tally.fluctuation[batch, fleet] += total

@@ -1,0 +1,106 @@
+"""Record: what runs leave behind, with units and provenance."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.metrics.summary import METRICS, Facts, evaluate, fleet_fluctuation, fleet_stationary, phi_histogram
+from shoal.metrics.tally import Tally
+from shoal.record.statistics import Estimate, estimate
+from shoal.record.trajectory import Trajectory
+
+
+@dataclass(frozen=True)
+class Record:
+    """The result of R runs of one scenario.
+
+    Attributes
+    ----------
+    scenario : the scenario in full, as its file would say it
+    facts : fleets and scales that metrics need
+    tallies : the sums of each run
+    provenance : seed, steps, scenario_hash, versions, platform, time, notes
+    trajectories : {run: frames}, for the runs that kept any
+    """
+
+    scenario: dict[str, Any]
+    facts: Facts
+    tallies: tuple[Tally, ...]
+    provenance: dict[str, Any]
+    trajectories: dict[int, Trajectory] = field(default_factory=dict)
+
+    def estimate(self, metric: str) -> Estimate:
+        """Mean and 95 % confidence interval of a metric, see shoal.metrics(): over runs, or batches of a single run.
+
+        Raises
+        ------
+        KeyError : no metric of this name
+        """
+        values, batches = zip(*(evaluate(metric, tally, self.facts) for tally in self.tallies), strict=True)
+        return estimate(values, batches[0])
+
+    def phi_histogram(self) -> npt.NDArray[np.float64]:
+        """Mean agents per step in each bin of phi from -1 to +1, by fleet: (F, 11). All bins sum to N. Eq. 8."""
+        return np.mean([phi_histogram(tally) for tally in self.tallies], axis=0)  # type: ignore[no-any-return]
+
+    def fleet_estimate(self, metric: str) -> dict[str, Estimate]:
+        """`xi_raw` [m/s], `xi` (over the swarm's mean top speed) or `stationary` of each fleet.
+
+        Raises
+        ------
+        KeyError : another metric
+        """
+        formulas = {
+            "xi_raw": lambda tally: fleet_fluctuation(tally, self.facts),
+            "xi": lambda tally: fleet_fluctuation(tally, self.facts) / self.facts.mean_max_speed,
+            "stationary": lambda tally: fleet_stationary(tally, self.facts),
+        }
+        formula = formulas[metric]
+        runs = np.array([formula(tally) for tally in self.tallies])
+        batches = np.array(
+            [
+                formula(Tally(*(part[b : b + 1] for part in self.tallies[0])))
+                for b in range(self.tallies[0].steps.size)
+            ]
+        )
+        return {
+            name: estimate(runs[:, f], batches[:, f]) for f, name in enumerate(self.facts.fleets)
+        }
+
+    def summary(self) -> dict[str, Any]:
+        """Everything in plain numbers, as `shoal run --json` prints it."""
+        histogram = self.phi_histogram()
+        return {
+            **{name: _plain(self.estimate(name)) for name in METRICS},
+            "phi_histogram": histogram.sum(axis=0).tolist(),
+            "fleets": {
+                name: {
+                    "count": self.facts.counts[f],
+                    "max_speed": self.facts.max_speeds[f],
+                    "phi_histogram": histogram[f].tolist(),
+                    **{metric: _plain(self.fleet_estimate(metric)[name]) for metric in ("xi", "xi_raw", "stationary")},
+                }
+                for f, name in enumerate(self.facts.fleets)
+            },
+            "units": {name: metric.unit for name, metric in METRICS.items()},
+            "runs": len(self.tallies),
+            **self.provenance,
+        }
+
+    def to_xarray(self) -> Any:
+        """Return an xarray.Dataset of metrics and trajectories with units and CF attributes (extra: xarray)."""
+        from shoal.record.export import to_xarray
+
+        return to_xarray(self)
+
+
+def _plain(value: Estimate) -> dict[str, Any]:
+    """An estimate as JSON; a number that does not exist is null."""
+
+    def number(x: float) -> float | None:
+        return x if np.isfinite(x) else None
+
+    interval = [number(bound) for bound in value.ci95] if value.ci95 else None
+    return {"mean": number(value.mean), "ci95": interval, "runs": [number(run) for run in value.runs]}

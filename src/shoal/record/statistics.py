@@ -1,0 +1,45 @@
+"""A mean and an honest interval: over replicates, or over the batches of one long run."""
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+# 97.5 % quantiles of Student's t for 1 to 30 degrees of freedom (standard table); beyond, Cornish-Fisher around z.
+_T975 = (
+    12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131,
+    2.120, 2.110, 2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042,
+)  # fmt: skip
+
+
+class Estimate(NamedTuple):
+    """Mean, 95 % confidence interval (None where it cannot be told) and the value of each run."""
+
+    mean: float
+    ci95: tuple[float, float] | None
+    runs: tuple[float, ...]
+
+
+def estimate(runs: npt.ArrayLike, batches: npt.ArrayLike | None = None) -> Estimate:
+    """Estimate a metric from its value in each run, (R,).
+
+    Two or more runs: Student's t over runs, which are independent. One run: Student's t over `batches`, its values in
+    consecutive batches of steps (B,), which are nearly independent when a batch is long against the swarm's memory.
+    """
+    values = np.asarray(runs, float)
+    mean = float(values.mean())
+    samples = values if values.size > 1 else np.asarray(batches if batches is not None else [], float)
+    samples = samples[np.isfinite(samples)]
+    each = tuple(float(value) for value in values)
+    if samples.size < 2 or not np.isfinite(mean):
+        return Estimate(mean, None, each)
+    half = t_quantile(samples.size - 1) * float(samples.std(ddof=1)) / float(np.sqrt(samples.size))
+    return Estimate(mean, (mean - half, mean + half), each)
+
+
+def t_quantile(degrees: int) -> float:
+    """97.5 % quantile of Student's t."""
+    if degrees <= len(_T975):
+        return _T975[degrees - 1]
+    z = 1.959964
+    return float(z + (z**3 + z) / (4 * degrees) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * degrees**2))

@@ -1,0 +1,96 @@
+"""Where everybody was: frames of one run, in memory or streamed to disk as plain .npy files."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.engine.rollout import Frames
+
+_PLAIN = ("step", "x", "y", "vx", "vy", "on_target", "target_x", "target_y", "target_present")
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """K frames of one run, each the state at the start of a step.
+
+    Attributes
+    ----------
+    step : (K,) number of the step
+    x, y : (K, N) [m]; vx, vy : (K, N) [m/s]; on_target : (K, N)
+    target_x, target_y : (K, T) [m]; target_present : (K, T)
+    memory : {field: (K, N)} what agents remembered, in the units of the strategy's memory
+    """
+
+    step: npt.NDArray[np.int64]
+    x: npt.NDArray[np.float64]
+    y: npt.NDArray[np.float64]
+    vx: npt.NDArray[np.float64]
+    vy: npt.NDArray[np.float64]
+    on_target: npt.NDArray[np.bool_]
+    target_x: npt.NDArray[np.float64]
+    target_y: npt.NDArray[np.float64]
+    target_present: npt.NDArray[np.bool_]
+    memory: dict[str, npt.NDArray[np.float64]]
+
+    def arrays(self) -> dict[str, npt.NDArray[Any]]:
+        """All arrays by name; memory fields as memory.NAME."""
+        plain = {name: getattr(self, name) for name in _PLAIN}
+        return plain | {f"memory.{name}": values for name, values in self.memory.items()}
+
+    @classmethod
+    def from_arrays(cls, arrays: dict[str, npt.NDArray[Any]]) -> "Trajectory":
+        """Inverse of `arrays`."""
+        memory = {name.removeprefix("memory."): each for name, each in arrays.items() if name.startswith("memory.")}
+        return cls(**{name: arrays[name] for name in _PLAIN}, memory=memory)
+
+    @classmethod
+    def from_frames(cls, frames: Frames, fields: Iterable[str]) -> "Trajectory":
+        """The frames that the engine filled; `fields` are the strategy's memory."""
+        plain = {name: getattr(frames, name) for name in _PLAIN}
+        return cls(**plain, memory={name: np.ascontiguousarray(frames.memory[name]) for name in fields})
+
+    @classmethod
+    def join(cls, parts: list["Trajectory"]) -> "Trajectory":
+        """Consecutive parts as one."""
+        arrays = [part.arrays() for part in parts]
+        return cls.from_arrays({name: np.concatenate([each[name] for each in arrays]) for name in arrays[0]})
+
+    @classmethod
+    def open(cls, folder: Path) -> "Trajectory":
+        """The trajectory in a folder; arrays stay on disk until they are used."""
+        return cls.from_arrays({file.stem: np.load(file, mmap_mode="r") for file in sorted(folder.glob("*.npy"))})
+
+
+class TrajectoryWriter:
+    """Appends frames to one .npy file per array; memory does not grow with the number of frames.
+
+    The files announce `frames` frames from the start, so they are complete .npy files once that many are written.
+    """
+
+    def __init__(self, folder: Path, frames: int) -> None:
+        self._folder = folder
+        self._frames = frames
+        self._files: dict[str, BinaryIO] = {}
+        folder.mkdir(parents=True)
+
+    def append(self, part: Trajectory) -> None:
+        """Write the frames of one chunk."""
+        for name, values in part.arrays().items():
+            if name not in self._files:
+                self._files[name] = (self._folder / f"{name}.npy").open("wb")
+                header = {
+                    "descr": np.lib.format.dtype_to_descr(values.dtype),
+                    "fortran_order": False,
+                    "shape": (self._frames, *values.shape[1:]),
+                }
+                np.lib.format.write_array_header_1_0(self._files[name], header)
+            self._files[name].write(np.ascontiguousarray(values).tobytes())
+
+    def close(self) -> None:
+        """Flush and close the files."""
+        for file in self._files.values():
+            file.close()

@@ -1,0 +1,177 @@
+"""TOML to Scenario; a wrong field is refused with file, line, field, value, reason and the nearest valid name."""
+
+import difflib
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import tomli_w
+from pydantic import ValidationError
+
+from shoal.core.errors import ScenarioError
+from shoal.scenario.plugins import load_strategies
+from shoal.scenario.schema import Area, Fleet, Motion, Network, Scenario, StillTarget, TrackTarget, WaypointTarget
+from shoal.scenario.strategy_choice import StrategyParamsError, params_model
+
+_TARGETS = {"still": StillTarget, "waypoint": WaypointTarget, "track": TrackTarget}
+
+
+def presets() -> list[str]:
+    """Names of the scenarios that come with Shoal."""
+    return sorted(file.name.removesuffix(".toml") for file in _preset_folder().iterdir() if file.name.endswith(".toml"))
+
+
+def load(source: str | Path) -> Scenario:
+    """Return the scenario of a preset's name or of a TOML file.
+
+    Raises
+    ------
+    ScenarioError : no such preset or file, not TOML, or not a scenario that can run
+    """
+    return scenario_from(read_table(source), where=str(source), text=_text_of(source))
+
+
+def read_table(source: str | Path) -> dict[str, Any]:
+    """Return the raw table of a preset's name or of a TOML file; files that it names become absolute paths."""
+    text = _text_of(source)
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ScenarioError(str(source), f"is not valid TOML: {error}", "see https://toml.io for the syntax") from None
+    folder = Path(source).resolve().parent
+    chosen, targets = table.get("strategy"), table.get("targets")
+    for part in (chosen, *(targets if isinstance(targets, list) else ())):
+        if isinstance(part, dict) and isinstance(part.get("file"), str):
+            part["file"] = str(folder / part["file"])
+    return table
+
+
+def scenario_from(table: Mapping[str, Any], *, where: str = "scenario", text: str = "") -> Scenario:
+    """Validate a raw table; `where` and `text` (its TOML) make errors say file and line.
+
+    Raises
+    ------
+    ScenarioError : unknown, missing or wrong fields
+    StrategyError : the strategy's file cannot be loaded
+    """
+    table = dict(table)
+    chosen = table.get("strategy")
+    if isinstance(chosen, dict) and isinstance(chosen.get("file"), str):
+        table["strategy"] = load_strategies(chosen)
+    try:
+        return Scenario.model_validate(table)
+    except StrategyParamsError as error:
+        problems = [(("strategy", *each["loc"]), each) for each in error.error.errors()]
+    except ValidationError as error:
+        problems = [(each["loc"], each) for each in error.errors()]
+    raise _as_scenario_error(problems, table, where, text)
+
+
+def to_toml(scenario: Scenario) -> str:
+    """Return the scenario as TOML that loads back to an equal scenario."""
+    return tomli_w.dumps(_without_none(scenario.model_dump(mode="json")))
+
+
+def _text_of(source: str | Path) -> str:
+    preset = _preset_folder() / f"{source}.toml"
+    if str(source) in presets():
+        return preset.read_text(encoding="utf-8")
+    path = Path(source)
+    try:
+        return path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise ScenarioError(str(source), "is not a text file", "name a TOML file or a preset") from None
+    except OSError as error:
+        near = difflib.get_close_matches(str(source), presets(), n=1)
+        hint = f"did you mean {near[0]!r}? " if near else ""
+        reason = "no preset and no file of this name" if isinstance(error, FileNotFoundError) else str(error.strerror)
+        raise ScenarioError(str(source), reason, f"{hint}presets: {', '.join(presets())}") from None
+
+
+def _preset_folder() -> Any:
+    return resources.files("shoal.scenario") / "presets"
+
+
+def _as_scenario_error(
+    problems: Sequence[tuple[tuple[Any, ...], Any]], table: Mapping[str, Any], where: str, text: str
+) -> ScenarioError:
+    """One error for all problems, the first in full."""
+    (loc, first), *others = problems
+    path = _path(loc)
+    line = _line_of(path, text)
+    place = ":".join(str(part) for part in (where, line) if part)
+    problem, fix = _explain(path, first, table)
+    also = "".join(f"\n  also: {_dotted(_path(loc))}: {_explain(_path(loc), each, table)[0]}" for loc, each in others)
+    return ScenarioError(f"{place} {_dotted(path)}".rstrip(), problem + also, fix)
+
+
+def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tuple[str, str]:
+    """The problem and the fix of one pydantic error."""
+    value = error.get("input")
+    known = _known_fields(path, table)
+    if error["type"] == "extra_forbidden":
+        near = difflib.get_close_matches(str(path[-1]), known, n=1, cutoff=0.5)
+        hint = f"did you mean {near[0]!r}?" if near else f"fields here: {', '.join(known)}"
+        return f"unknown field (value {value!r})", hint
+    if error["type"] == "missing":
+        return "is required and missing", f"add {path[-1]} = ..."
+    if error["type"] == "value_error":
+        reason = str(error["ctx"]["error"])
+        return reason, "change the value"
+    if error["type"] == "strategy_name":
+        names = error["ctx"]["known"].split(", ")
+        wrong = value.get("name") if isinstance(value, dict) else value
+        near = difflib.get_close_matches(str(wrong), names, n=1)
+        hint = f"did you mean {near[0]!r}? " if near else ""
+        return f"no strategy is called {wrong!r}", f"{hint}strategies: {', '.join(names)}; or file = \"my_strategy.py\""
+    if isinstance(value, (dict, list, tuple)):
+        return f"{error['msg'].lower()}", "see `shoal scenario oceans2020` for a complete example"
+    return f"{value!r}: {error['msg'].lower()}", "change the value"
+
+
+def _path(loc: Sequence[Any]) -> tuple[Any, ...]:
+    """A pydantic location without the tags it adds for the kind of a target."""
+    return tuple(
+        part for at, part in enumerate(loc) if not (at == 2 and loc[0] == "targets" and part in _TARGETS)
+    )
+
+
+def _dotted(path: Sequence[Any]) -> str:
+    return ".".join(str(part) for part in path)
+
+
+def _known_fields(path: tuple[Any, ...], table: Mapping[str, Any]) -> list[str]:
+    """Names that are valid beside the last part of a path."""
+    models: dict[str, Any] = {"area": Area, "fleets": Fleet, "network": Network, "motion": Motion}
+    if len(path) < 2:
+        return list(Scenario.model_fields)
+    if path[0] == "strategy":
+        return ["file", *params_model(table["strategy"]["name"]).model_fields]
+    if path[0] == "targets":
+        return list(_TARGETS[table["targets"][path[1]]["kind"]].model_fields)
+    return list(models[path[0]].model_fields) if path[0] in models else []
+
+
+def _line_of(path: Sequence[Any], text: str) -> int | None:
+    """Line of the TOML text where a path is set, if it is written plainly."""
+    header, wanted, count = "", [part for part in path if isinstance(part, str)], {}  # type: ignore[var-annotated]
+    index = next((part for part in path if isinstance(part, int)), None)
+    for number, line in enumerate(text.splitlines(), 1):
+        if match := re.match(r"\s*\[+\s*([\w.\-]+)\s*\]+", line):
+            header = match.group(1)
+            count[header] = count.get(header, -1) + 1
+        elif match := re.match(r"\s*([\w.\-]+)\s*=", line):
+            names = [*header.split("."), match.group(1)] if header else [match.group(1)]
+            if names == wanted and (index is None or count.get(header) == index):
+                return number
+    return None
+
+
+def _without_none(value: Any) -> Any:
+    """TOML has no null: leave those fields out."""
+    if isinstance(value, dict):
+        return {key: _without_none(item) for key, item in value.items() if item is not None}
+    return [_without_none(item) for item in value] if isinstance(value, list) else value

@@ -1,0 +1,81 @@
+"""A user's strategy: a Python file that uses @shoal.strategy, loaded by path."""
+
+import hashlib
+import importlib.util
+import sys
+from pathlib import Path
+from typing import Any
+
+from shoal.core.errors import StrategyError
+from shoal.strategies import CATALOGUE
+
+
+def load_strategies(choice: dict[str, Any]) -> dict[str, Any]:
+    """Load the file that a [strategy] table names; return the table with name and hash of the source filled in.
+
+    Raises
+    ------
+    StrategyError : no such file, it fails to import, it defines no strategy or several and none is named,
+        or its source is not the one that the table insists on
+    """
+    path = Path(choice["file"])
+    try:
+        text = path.read_bytes()
+    except OSError as error:
+        raise StrategyError(str(path), f"cannot be read: {error.strerror}", "name a Python file") from None
+    source = hashlib.sha256(text).hexdigest()[:16]
+    if choice.get("source") not in (None, source):
+        raise StrategyError(
+            str(path), "is not the file that this scenario was made with", "restore it, or drop `source` to use it anyway"
+        )
+    names = _names_defined_by(path, source)
+    name = choice.get("name") or (names[0] if len(names) == 1 else None)
+    if name is None or (name not in names and name not in CATALOGUE):
+        raise StrategyError(str(path), f"defines {', '.join(names)}", 'choose one: name = "..."')
+    return {**choice, "name": name, "source": source}
+
+
+_LOADED: dict[tuple[str, str], list[str]] = {}  # (path, source) -> names: a file is executed once per version
+
+
+def _names_defined_by(path: Path, source: str) -> list[str]:
+    key = (str(path.resolve()), source)
+    if key not in _LOADED:
+        before = dict(CATALOGUE)
+        _execute(path, f"shoal_plugin_{path.stem.replace('-', '_')}_{source}")
+        names = [name for name, known in CATALOGUE.items() if before.get(name) is not known]
+        taken = [name for name in names if name in before and before[name].builtin]
+        if taken:
+            CATALOGUE.update(before)
+            raise StrategyError(str(path), f"redefines the built-in strategy {taken[0]!r}", "give it a name of its own")
+        if not names:
+            raise StrategyError(str(path), "defines no strategy", "decorate a function with @shoal.strategy(...)")
+        _LOADED[key] = names
+    return _LOADED[key]
+
+
+def _execute(path: Path, module_name: str) -> None:
+    spec = importlib.util.spec_from_file_location(module_name, path)
+    if spec is None or spec.loader is None:
+        raise StrategyError(str(path), "is no Python file", "name a file that ends in .py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[module_name] = module
+    try:
+        spec.loader.exec_module(module)
+    except StrategyError:
+        raise
+    except Exception as error:
+        line = _line_in(error, path)
+        raise StrategyError(f"{path}:{line}" if line else str(path), f"{type(error).__name__}: {error}", "mend it") from error
+
+
+def _line_in(error: BaseException, path: Path) -> int | None:
+    """Line of the user's file where an exception arose."""
+    if isinstance(error, SyntaxError):
+        return error.lineno
+    line, trace = None, error.__traceback__
+    while trace:
+        if trace.tb_frame.f_code.co_filename == str(path):
+            line = trace.tb_lineno
+        trace = trace.tb_next
+    return line

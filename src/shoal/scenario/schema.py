@@ -1,0 +1,186 @@
+"""Scenario: all a run needs, nothing it produces. Frozen, validated once; SI inside, "5 kn" accepted at the door."""
+
+import hashlib
+import json
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt, PositiveInt, model_validator
+
+from shoal.core.units import Degrees, Kilograms, Meters, MetersPerSecond, Seconds
+from shoal.scenario.strategy_choice import StrategyChoice
+
+ARENA_UNITS = 20.0  # the paper's arena measures 20 units; one is the length its figures are in
+
+
+class Frozen(BaseModel):
+    """Base of every part of a scenario: cannot change, knows no extra fields."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+Positive = Field(gt=0)
+NotNegative = Field(ge=0)
+
+
+class Area(Frozen):
+    """The arena, a rectangle centered at (0, 0)."""
+
+    width: Annotated[Meters, Positive] = Field(description="east-west side [m]")
+    height: Annotated[Meters, Positive] = Field(description="north-south side [m]")
+    agent_margin: Annotated[Meters, NotNegative] = Field(
+        default=0.0, description="agents are kept this far inside the edge [m]; the published runs used 1.5 of 20"
+    )
+    origin: tuple[float, float] | None = Field(
+        default=None, description="longitude and latitude of (0, 0) [deg], for recorded tracks"
+    )
+
+    @model_validator(mode="after")
+    def _agents_have_room(self) -> Self:
+        if 2 * self.agent_margin >= min(self.width, self.height):
+            raise ValueError(
+                f"agent_margin is {self.agent_margin:g} m, which leaves agents no room in {self.width:g} m x "
+                f"{self.height:g} m; lower it below {min(self.width, self.height) / 2:g} m"
+            )
+        return self
+
+
+class Fleet(Frozen):
+    """Agents of one make."""
+
+    name: str = Field(min_length=1, description="what reports call it")
+    count: PositiveInt = Field(description="number of agents")
+    max_speed: Annotated[MetersPerSecond, Positive] = Field(description="top speed [m/s]")
+    mass: Annotated[Kilograms, Positive] | None = Field(default=None, description="mass of one agent [kg]; for reports")
+    sensor_radius: Annotated[Meters, NotNegative] = Field(
+        default=0.0, description="a target is detected when its rim is within this of the agent [m]"
+    )
+    start: Literal["uniform", "center", "corner"] = Field(
+        default="uniform", description="where agents start: over the arena, or over a tenth of it"
+    )
+
+
+class Network(Frozen):
+    """Who hears whom."""
+
+    neighbors: PositiveInt = Field(description="k: every agent hears its k nearest others")
+
+
+class Motion(Frozen):
+    """How decisions become moves."""
+
+    update_order: Literal["synchronous", "sequential"] = Field(
+        default="synchronous", description="all decide on the state at t, or one after the other on the moved ones"
+    )
+    speed_rule: Literal["cap", "divide"] = Field(
+        default="cap", description="velocities are scaled down to the top speed, or divided by it as the paper prints"
+    )
+
+
+class StillTarget(Frozen):
+    """A target that stays where it is."""
+
+    kind: Literal["still"] = "still"
+    radius: Annotated[Meters, NotNegative] = Field(description="rho: size of the target [m]")
+    x: Meters = Field(default=0.0, description="east of the center [m]")
+    y: Meters = Field(default=0.0, description="north of the center [m]")
+
+
+class WaypointTarget(Frozen):
+    """The paper's target: constant speed toward uniform random waypoints, turning at most so far per step."""
+
+    kind: Literal["waypoint"] = "waypoint"
+    radius: Annotated[Meters, NotNegative] = Field(description="rho: size of the target [m]")
+    speed: Annotated[MetersPerSecond, NotNegative] = Field(description="constant speed [m/s]")
+    margin: Annotated[Meters, NotNegative] = Field(
+        default=0.0, description="waypoints and the start lie this far inside the edge [m]"
+    )
+    max_turn: Annotated[Degrees, Field(gt=0, le=180)] = Field(default=20.0, description="largest turn in a step [deg]")
+    waypoint_reach: Annotated[Meters, Positive] = Field(description="a new waypoint is taken when closer than this [m]")
+    waypoint_patience: PositiveInt = Field(default=200, description="or after so many steps on the same one")
+
+
+class TrackTarget(Frozen):
+    """A recorded track: CSV, GPX or NetCDF in longitude and latitude."""
+
+    kind: Literal["track"] = "track"
+    file: str = Field(min_length=1, description="CSV, GPX or CF NetCDF file; relative to the scenario's folder")
+    id: str | None = Field(default=None, description='which track of the file, as "COLUMN=VALUE"')
+    radius: Annotated[Meters, NotNegative] = Field(description="rho: size of the target [m]")
+    max_gap: Annotated[Seconds, Positive] | None = Field(
+        default=None, description="in a longer silence the target is not there [s]; default from the data"
+    )
+    max_speed: Annotated[MetersPerSecond, Positive] = Field(
+        default=40.0, description="a faster jump between two fixes is a GPS error [m/s]"
+    )
+    digest: str | None = Field(default=None, description="hash of the fixes used; Shoal fills it in, then insists on it")
+
+
+Target = Annotated[StillTarget | WaypointTarget | TrackTarget, Field(discriminator="kind")]
+
+
+class Scenario(Frozen):
+    """All a run needs, nothing it produces."""
+
+    name: str = Field(default="scenario", description="what reports call it")
+    description: str = Field(default="", description="one sentence")
+    time_step: Annotated[Seconds, Positive] = Field(description="dt [s]")
+    steps: PositiveInt = Field(description="time-steps of a run")
+    seed: NonNegativeInt = Field(default=1, lt=2**64, description="run r of two scenarios with one seed share their chance")
+    area: Area
+    fleets: tuple[Fleet, ...] = Field(min_length=1, description="one or more makes of agents")
+    network: Network
+    motion: Motion = Motion()
+    strategy: StrategyChoice
+    targets: tuple[Target, ...] = Field(min_length=1, description="one or more targets")
+
+    @property
+    def agents(self) -> int:
+        """N: number of agents of all fleets."""
+        return sum(fleet.count for fleet in self.fleets)
+
+    @property
+    def unit(self) -> float:
+        """Length of one arena unit [m]: the longer side / 20."""
+        return max(self.area.width, self.area.height) / ARENA_UNITS
+
+    @property
+    def hash(self) -> str:
+        """16 hex digits over everything that shapes a run but its seed, its name and its description."""
+        content = self.model_dump(mode="json", exclude={"name", "description", "seed"})
+        for part in (content["strategy"], *content["targets"]):
+            part.pop("file", None)  # what a file says counts (source, digest), not where it lies
+        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:16]
+
+    @model_validator(mode="after")
+    def _two_agents(self) -> Self:
+        if not 2 <= self.agents <= 100_000:
+            raise ValueError(f"the fleets have {self.agents} agents together; a swarm has 2 to 100000: change count")
+        return self
+
+    @model_validator(mode="after")
+    def _can_hear_k_neighbors(self) -> Self:
+        if self.network.neighbors >= self.agents:
+            raise ValueError(
+                f"network.neighbors is {self.network.neighbors}, but {self.agents} agents can hear at most "
+                f"{self.agents - 1}; lower it or add agents under fleets"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _fleets_have_names(self) -> Self:
+        names = [fleet.name for fleet in self.fleets]
+        if len(set(names)) < len(names):
+            raise ValueError(f"fleets.name: {', '.join(names)} are not all different; rename one")
+        return self
+
+    @model_validator(mode="after")
+    def _waypoints_have_room(self) -> Self:
+        for number, target in enumerate(self.targets):
+            if isinstance(target, WaypointTarget) and 2 * target.margin >= min(self.area.width, self.area.height):
+                raise ValueError(f"targets.{number}.margin is {target.margin:g} m and leaves waypoints no room; lower it")
+        return self
+
+
+def json_schema() -> dict[str, Any]:
+    """JSON Schema of a scenario file."""
+    return Scenario.model_json_schema(mode="validation")

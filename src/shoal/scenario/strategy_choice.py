@@ -1,0 +1,128 @@
+"""The [strategy] table of a scenario: a name and the parameters that this strategy has."""
+
+from functools import cache
+from typing import Annotated, Any, Literal, get_type_hints
+
+from pydantic import BaseModel, ConfigDict, Field, create_model
+from pydantic import ValidationError as PydanticError
+from pydantic_core import PydanticCustomError, core_schema
+
+from shoal.core.units import Choice, Says, Unit
+from shoal.strategies import CATALOGUE, Strategy
+
+
+class StrategyChoice:
+    """Which strategy a scenario uses and its parameters, all filled in.
+
+    Attributes
+    ----------
+    name : as in shoal.strategies()
+    file : the user's Python file that defines it, or None; source : hash of that file's text
+    params : {parameter: value}, words for choices
+    """
+
+    def __init__(self, name: str, file: str | None, source: str | None, params: dict[str, Any]) -> None:
+        self.name = name
+        self.file = file
+        self.source = source
+        self.params = params
+
+    def flat(self) -> dict[str, Any]:
+        """The table as a scenario file spells it."""
+        loaded = {"file": self.file, "source": self.source} if self.file else {}
+        return {"name": self.name, **loaded, **self.params}
+
+    def kernel_params(self) -> Any:
+        """The strategy's NamedTuple of parameters: words become their index, numbers the type of the default."""
+        owner = CATALOGUE[self.name]
+        hints = get_type_hints(owner.params, include_extras=True)
+        values = {}
+        for field, value in self.params.items():
+            words = _mark(hints[field], Choice)
+            values[field] = words.words.index(value) if words else type(owner.params._field_defaults[field])(value)  # type: ignore[attr-defined]
+        return owner.params(**values)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, StrategyChoice) and self.flat() == other.flat()
+
+    def __hash__(self) -> int:
+        return hash(tuple(sorted((key, str(value)) for key, value in self.flat().items())))
+
+    def __repr__(self) -> str:
+        return f"StrategyChoice({self.flat()})"
+
+    @classmethod
+    def validate(cls, value: Any) -> "StrategyChoice":
+        """Return the choice that a table describes; the strategy's file must have been loaded before."""
+        if isinstance(value, cls):
+            return value
+        if isinstance(value, str):
+            value = {"name": value}
+        if not isinstance(value, dict) or "name" not in value:
+            raise PydanticCustomError("strategy", "a strategy is a table with a name, or just the name")
+        if value["name"] not in CATALOGUE:
+            raise PydanticCustomError(
+                "strategy_name", "unknown strategy; there are: {known}", {"known": ", ".join(sorted(CATALOGUE))}
+            )
+        owner = CATALOGUE[value["name"]]
+        table = dict(value)
+        file, source = table.pop("file", None), table.pop("source", None)
+        filled = params_model(owner.name)(**table).model_dump(exclude={"name"})
+        return cls(owner.name, file, source, filled)
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(
+            cls._validate_for_pydantic,
+            serialization=core_schema.plain_serializer_function_ser_schema(cls.flat),
+        )
+
+    @classmethod
+    def _validate_for_pydantic(cls, value: Any) -> "StrategyChoice":
+        try:
+            return cls.validate(value)
+        except PydanticError as error:  # keep the path: pydantic only nests errors of its own schemas
+            raise StrategyParamsError(error) from error
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> dict[str, Any]:
+        return {"anyOf": [params_model(name).model_json_schema() for name in sorted(CATALOGUE)]}
+
+
+class StrategyParamsError(Exception):
+    """Carries pydantic's error about a parameter out of the scenario's own validation."""
+
+    def __init__(self, error: PydanticError) -> None:
+        super().__init__(str(error))
+        self.error = error
+
+
+def params_model(name: str) -> type[BaseModel]:
+    """Pydantic model of a strategy's parameters, made from its NamedTuple."""
+    return _params_model(CATALOGUE[name])
+
+
+@cache
+def _model_of(name: str, params: type[Any]) -> type[BaseModel]:
+    hints = get_type_hints(params, include_extras=True)
+    fields: dict[str, Any] = {"name": (Literal[name], name)}
+    for field, default in params._field_defaults.items():  # type: ignore[attr-defined]
+        choice, says = _mark(hints[field], Choice), _mark(hints[field], Says)
+        description = says.sentence if says else ""
+        if choice:
+            fields[field] = (Literal[choice.words], Field(default=choice.words[default], description=description))
+        else:
+            unit = _mark(hints[field], Unit)
+            kind = Annotated[type(default), unit] if unit else type(default)
+            fields[field] = (kind, Field(default=default, description=description))
+    config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    return create_model(f"{params.__name__}Table", __config__=config, __doc__=params.__doc__, **fields)
+
+
+def _params_model(owner: Strategy) -> type[BaseModel]:
+    return _model_of(owner.name, owner.params)
+
+
+def _mark(hint: Any, kind: type[Any]) -> Any:
+    """The first annotation of a kind on a type hint, or None."""
+    return next((mark for mark in getattr(hint, "__metadata__", ()) if isinstance(mark, kind)), None)

@@ -1,0 +1,277 @@
+"""Simulation: one run of a scenario that can be advanced, looked at, saved and resumed at any step."""
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from shoal.core.agents import Swarm, new_swarm
+from shoal.core.errors import RecordError, ScenarioError
+from shoal.core.kernel import cache_folder, uncached
+from shoal.engine.rollout import Frames, begin_run, rollout
+from shoal.metrics.summary import Facts
+from shoal.metrics.tally import Tally, new_tally
+from shoal.record.trajectory import Trajectory
+from shoal.scenario.schema import Scenario, StillTarget, TrackTarget, WaypointTarget
+from shoal.scenario.tracks import Track, read_track
+from shoal.strategies import CATALOGUE
+from shoal.version import RESULTS_VERSION
+from shoal.world.arena import World
+from shoal.world.placement import PLACES
+from shoal.world.targets import KINDS, TARGET, Tracks
+
+BATCHES = 20  # of one run, for batch means
+_NEVER = 1 << 62
+
+
+class Simulation:
+    """One run of a scenario. Same scenario, seed and run: same bits, however it is advanced.
+
+    Parameters
+    ----------
+    scenario : what to run
+    run : number of the replicate; with the seed it decides all chance
+
+    Attributes
+    ----------
+    number : steps done
+    swarm : arrays of the agents' state (padded: the first `scenario.agents` lanes count)
+    targets : array of target records
+    tally : sums so far
+    notes : what was assumed or dropped in reading recorded tracks
+
+    Raises
+    ------
+    TrackError : a recorded track cannot be used
+    StrategyError : the strategy cannot be compiled
+    """
+
+    def __init__(self, scenario: Scenario, run: int = 0) -> None:
+        self.scenario = scenario
+        self.run = run
+        self.number = 0
+        self.notes: list[str] = []
+        strategy = CATALOGUE[scenario.strategy.name]
+        self.memory_fields = tuple(strategy.memory)
+        self.params = scenario.strategy.kernel_params()
+        self.world = _build_world(scenario)
+        self.swarm = _build_swarm(scenario, self.memory_fields)
+        self.targets, self.tracks, tracks = _build_targets(scenario)
+        self.notes += [note for track in tracks for note in track.notes]
+        self.tally = new_tally(min(BATCHES, scenario.steps), len(scenario.fleets))
+        self._begin, self._rollout = _compiled(scenario.strategy.name)
+        self._seed = np.uint64(scenario.seed)
+        places = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
+        self._begin(self.world, self.swarm, self.targets, self.tracks, places, self.params, self._seed, run)
+
+    def advance(self, steps: int, *, every: int | None = None, tail: int | None = None) -> Trajectory | None:
+        """Run so many steps; with `every`, return the frames of every so many-th step and of all from step `tail` on.
+
+        Memory and results do not depend on how a run is cut into calls.
+        """
+        last = self.number + steps
+        tail = _NEVER if tail is None else tail
+        kept = count_frames(self.number, last, every, tail)
+        frames = self._new_frames(kept)
+        self._rollout(
+            self.world,
+            self.swarm,
+            self.targets,
+            self.tracks,
+            self.params,
+            self.tally,
+            self._seed,
+            self.run,
+            self.number,
+            last,
+            self.scenario.steps,
+            frames,
+            every or _NEVER,
+            tail,
+        )
+        self.number = last
+        return Trajectory.from_frames(frames, self.memory_fields) if kept else None
+
+    def state(self) -> dict[str, Any]:
+        """Everything that a resumed run needs, as arrays by name."""
+        parts = {f"swarm.{name}": part for name, part in self.swarm._asdict().items()}
+        parts |= {f"tally.{name}": part for name, part in self.tally._asdict().items()}
+        return parts | {"targets": self.targets, "number": np.array(self.number), "identity": np.array(self._identity())}
+
+    def save(self, file: str | Path) -> None:
+        """Write the state to an .npz file, whole or not at all."""
+        path = Path(file)
+        partial = path.with_name(path.name + ".partial")
+        try:
+            with partial.open("wb") as stream:
+                np.savez(stream, **self.state())
+            partial.replace(path)
+        except OSError as error:
+            partial.unlink(missing_ok=True)
+            raise RecordError(str(path), f"cannot be written: {error.strerror or error}", "name a writable file") from error
+
+    def restore(self, file: str | Path) -> None:
+        """Continue from a saved state of the same scenario, seed and run.
+
+        Raises
+        ------
+        RecordError : no saved state, or one of something else
+        """
+        try:
+            with np.load(file) as state:
+                if str(state["identity"]) != self._identity():
+                    raise RecordError(
+                        str(file), f"was saved by {state['identity']}, this is {self._identity()}", "use the same scenario"
+                    )
+                for group in ("swarm", "tally"):
+                    for name, part in getattr(self, group)._asdict().items():
+                        part[...] = state[f"{group}.{name}"]
+                self.targets[...] = state["targets"]
+                self.number = int(state["number"])
+        except (OSError, ValueError, KeyError) as error:
+            if isinstance(error, RecordError):
+                raise
+            raise RecordError(str(file), f"is no saved state: {error}", "name a file made by Simulation.save") from error
+
+    def _identity(self) -> str:
+        return f"{self.scenario.hash}-seed{self.scenario.seed}-run{self.run}-results{RESULTS_VERSION}"
+
+    def _new_frames(self, count: int) -> Frames:
+        agents, targets = self.scenario.agents, self.targets.size
+        plain = [np.empty((count, agents)) for _ in range(4)]
+        return Frames(
+            np.empty(count, np.int64),
+            *plain,
+            np.empty((count, agents), np.bool_),
+            np.empty((count, agents), self.swarm.memory.dtype),
+            np.empty((count, targets)),
+            np.empty((count, targets)),
+            np.empty((count, targets), np.bool_),
+        )
+
+
+def facts_of(scenario: Scenario) -> Facts:
+    """What metrics need to know of a scenario."""
+    fleets = scenario.fleets
+    return Facts(
+        fleets=tuple(fleet.name for fleet in fleets),
+        counts=tuple(fleet.count for fleet in fleets),
+        max_speeds=tuple(fleet.max_speed for fleet in fleets),
+        unit=scenario.unit,
+        time_step=scenario.time_step,
+    )
+
+
+def count_frames(first: int, last: int, every: int | None, tail: int) -> int:
+    """Number of frames that steps first..last keep."""
+    if every is None:
+        return 0
+    before = min(last, max(tail, first))
+    return (-(-before // every)) - (-(-first // every)) + (last - before)
+
+
+def needs_compiling(scenario: Scenario) -> bool:
+    """Whether the first step will compile the engine for this strategy (once per version, about 10 s)."""
+    return not CATALOGUE[scenario.strategy.name].builtin or not _compiled_mark(scenario.strategy.name).exists()
+
+
+def mark_compiled(scenario: Scenario) -> None:
+    """Remember that this strategy's engine is in the cache."""
+    if CATALOGUE[scenario.strategy.name].builtin:
+        try:
+            _compiled_mark(scenario.strategy.name).touch()
+        except OSError:
+            return  # only a message depends on it
+
+
+def _compiled_mark(name: str) -> Path:
+    return cache_folder() / f"compiled-{name}"
+
+
+_UNCACHED: dict[type[Any], tuple[Any, Any]] = {}
+
+
+def _compiled(name: str) -> tuple[Any, Any]:
+    """begin_run and rollout: from the cache for our own strategies, fresh ones for a user's."""
+    strategy = CATALOGUE[name]
+    if strategy.builtin:
+        return begin_run, rollout
+    if strategy.params not in _UNCACHED:
+        _UNCACHED[strategy.params] = (uncached(begin_run), uncached(rollout))
+    return _UNCACHED[strategy.params]
+
+
+def _build_world(scenario: Scenario) -> World:
+    area = scenario.area
+    return World(
+        agents=scenario.agents,
+        fleets=len(scenario.fleets),
+        time_step=scenario.time_step,
+        half_x=area.width / 2,
+        half_y=area.height / 2,
+        clamp_x=area.width / 2 - area.agent_margin,
+        clamp_y=area.height / 2 - area.agent_margin,
+        sequential=scenario.motion.update_order == "sequential",
+        divide=scenario.motion.speed_rule == "divide",
+    )
+
+
+def _build_swarm(scenario: Scenario, memory_fields: tuple[str, ...]) -> Swarm:
+    """Agents in the order of the fleets, nowhere yet."""
+    agents = scenario.agents
+    counts = [fleet.count for fleet in scenario.fleets]
+    swarm = new_swarm(counts, memory_fields)
+    swarm.max_speed[:agents] = np.repeat([fleet.max_speed for fleet in scenario.fleets], counts)
+    swarm.sensor_radius[:agents] = np.repeat([fleet.sensor_radius for fleet in scenario.fleets], counts)
+    swarm.neighbors[:agents] = scenario.network.neighbors
+    return swarm
+
+
+def _build_targets(scenario: Scenario) -> tuple[Any, Tracks, list[Track]]:
+    """One record per target; the fixes of recorded ones behind each other."""
+    targets = np.zeros(len(scenario.targets), TARGET)
+    tracks: list[Track] = []
+    for record, target in zip(targets, scenario.targets, strict=True):
+        record["kind"] = KINDS.index(target.kind)
+        record["radius"] = target.radius
+        record["present"] = 1
+        if isinstance(target, StillTarget):
+            record["x"], record["y"] = target.x, target.y
+        elif isinstance(target, WaypointTarget):
+            record["speed"] = target.speed
+            record["half_x"] = scenario.area.width / 2 - target.margin
+            record["half_y"] = scenario.area.height / 2 - target.margin
+            record["turn_cos"] = math.cos(math.radians(target.max_turn))
+            record["turn_sin"] = math.sin(math.radians(target.max_turn))
+            record["waypoint_reach"] = target.waypoint_reach
+            record["waypoint_patience"] = target.waypoint_patience
+        else:
+            track = _open_track(target, scenario)
+            record["first_fix"] = sum(each.time.size for each in tracks)
+            record["fixes"] = track.time.size
+            record["max_gap"] = track.max_gap
+            tracks.append(track)
+    return targets, _join_tracks(tracks), tracks
+
+
+def _open_track(target: TrackTarget, scenario: Scenario) -> Track:
+    track = read_track(
+        target.file,
+        track_id=target.id,
+        origin=scenario.area.origin,
+        max_gap=target.max_gap,
+        max_speed=target.max_speed,
+    )
+    if target.digest not in (None, track.digest):
+        raise ScenarioError(
+            target.file, "does not hold the track that this scenario was made with", "restore it, or drop `digest`"
+        )
+    return track
+
+
+def _join_tracks(tracks: Sequence[Track]) -> Tracks:
+    if not tracks:
+        return Tracks(np.zeros(1), np.zeros(1), np.zeros(1))
+    return Tracks(*(np.concatenate([getattr(track, name) for track in tracks]) for name in ("time", "x", "y")))

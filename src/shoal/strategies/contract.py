@@ -1,0 +1,199 @@
+"""The strategy contract: four small functions that see only what a buoy could know.
+
+    begin(me, memory, params, draw)             once, at the start: set up the memory
+    leads(other, params) -> bool                may this neighbor be followed?
+    priority(me, other, params) -> float        of those that may, the lowest is followed
+    influence(me, other, params) -> (x, y)      what one neighbor adds to the sum that I hear
+    decide(me, heard, memory, params, draw) -> (vx, vy)     the velocity I want [m/s]
+
+The shape is message passing: an additive influence per linked pair, one leader, one decision per agent. It is what
+lets one plain function serve the vectorized engine, a buoy that loops over its inbox, and a GPU thread.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from numba.extending import overload
+
+from shoal.core.errors import StrategyError
+from shoal.core.kernel import kernel
+
+
+@dataclass(frozen=True)
+class Strategy:
+    """One way to decide: its functions (compiled), its parameters and what it remembers.
+
+    Attributes
+    ----------
+    name : what scenarios call it
+    params : NamedTuple class of its parameters, with units in their annotations
+    memory : unit of each remembered field, by name
+    summary : first line of the docstring of `decide`
+    source : file it was defined in
+    """
+
+    name: str
+    params: type[Any]
+    memory: dict[str, str]
+    summary: str
+    source: str
+    builtin: bool
+    begin: Callable[..., Any]
+    leads: Callable[..., Any]
+    priority: Callable[..., Any]
+    influence: Callable[..., Any] | None
+    decide: Callable[..., Any]
+
+
+CATALOGUE: dict[str, Strategy] = {}
+
+
+def strategy(
+    name: str,
+    *,
+    params: type[Any],
+    memory: dict[str, str] | None = None,
+    begin: Callable[..., Any] | None = None,
+    leads: Callable[..., Any] | None = None,
+    priority: Callable[..., Any] | None = None,
+    influence: Callable[..., Any] | None = None,
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Register the decorated `decide` function as a strategy.
+
+    Parameters
+    ----------
+    name : how scenarios call it
+    params : NamedTuple class; every field has a default and, if it has a unit, an annotation such as shoal.Meters
+    memory : {field: unit}; each agent remembers one number per field, `memory.field` reads and writes it
+    begin : sets up the memory before the first step (default: zeros)
+    leads, priority : who is followed (default: the nearest neighbor on target)
+    influence : what each neighbor adds to heard.sum_x, heard.sum_y (default: nothing)
+
+    Raises
+    ------
+    StrategyError : params are no NamedTuple, or a parameter has no default
+    """
+
+    def register(decide: Callable[..., Any]) -> Callable[..., Any]:
+        where = f"strategy {name!r}"
+        fields = getattr(params, "_fields", None)
+        if fields is None:
+            raise StrategyError(where, f"params={params!r} is no NamedTuple class", "write class Params(NamedTuple): ...")
+        bare = [field for field in fields if field not in params._field_defaults]
+        if bare:
+            raise StrategyError(where, f"parameter {bare[0]!r} has no default", f"write {bare[0]}: float = ...")
+        compiled = kernel(decide)
+        CATALOGUE[name] = Strategy(
+            name=name,
+            params=params,
+            memory=dict(memory or {}),
+            summary=(decide.__doc__ or "").strip().split("\n")[0],
+            source=decide.__code__.co_filename,
+            builtin=decide.__module__.startswith("shoal."),
+            begin=kernel(begin) if begin else _keep_zeros,
+            leads=kernel(leads) if leads else _is_on_target,
+            priority=kernel(priority) if priority else _nearest_first,
+            influence=kernel(influence) if influence else None,
+            decide=compiled,
+        )
+        return compiled
+
+    return register
+
+
+@kernel
+def _keep_zeros(me, memory, params, draw):  # type: ignore[no-untyped-def]
+    """Start with an empty memory."""
+
+
+@kernel
+def _is_on_target(other, params):  # type: ignore[no-untyped-def]
+    return other.on_target
+
+
+@kernel
+def _nearest_first(me, other, params):  # type: ignore[no-untyped-def]
+    dx = me.x - other.x
+    dy = me.y - other.y
+    return dx * dx + dy * dy
+
+
+@kernel
+def _no_influence(me, other, params):  # type: ignore[no-untyped-def]
+    return 0.0, 0.0
+
+
+# The engine calls these five names; which strategy answers is decided by the type of `params`. Passing functions as
+# arguments or closures would recompile the engine in every process; dispatching on a type is cached by numba.
+
+
+def begin(me: Any, memory: Any, params: Any, draw: Any) -> None:
+    """Let the strategy that owns this type of params set up a memory."""
+    _owner(type(params)).begin(me, memory, params, draw)
+
+
+def leads(other: Any, params: Any) -> Any:
+    """Ask the owner of params whether a neighbor may lead."""
+    return _owner(type(params)).leads(other, params)
+
+
+def priority(me: Any, other: Any, params: Any) -> Any:
+    """Ask the owner of params how low a neighbor ranks."""
+    return _owner(type(params)).priority(me, other, params)
+
+
+def influence(me: Any, other: Any, params: Any) -> Any:
+    """Ask the owner of params what a neighbor adds to the sum."""
+    return (_owner(type(params)).influence or _no_influence)(me, other, params)
+
+
+def has_influence(params: Any) -> Any:
+    """Whether the owner of params sums anything; a compile-time constant, so that nothing is summed in vain."""
+    return _owner(type(params)).influence is not None
+
+
+def decide(me: Any, heard: Any, memory: Any, params: Any, draw: Any) -> Any:
+    """Ask the owner of params for the velocity wanted."""
+    return _owner(type(params)).decide(me, heard, memory, params, draw)
+
+
+@overload(begin, inline="always")
+def _begin(me, memory, params, draw):  # type: ignore[no-untyped-def]
+    chosen = _owner(params.instance_class).begin
+    return lambda me, memory, params, draw: chosen(me, memory, params, draw)
+
+
+@overload(leads, inline="always")
+def _leads(other, params):  # type: ignore[no-untyped-def]
+    chosen = _owner(params.instance_class).leads
+    return lambda other, params: chosen(other, params)
+
+
+@overload(priority, inline="always")
+def _priority(me, other, params):  # type: ignore[no-untyped-def]
+    chosen = _owner(params.instance_class).priority
+    return lambda me, other, params: chosen(me, other, params)
+
+
+@overload(influence, inline="always")
+def _influence(me, other, params):  # type: ignore[no-untyped-def]
+    chosen = _owner(params.instance_class).influence or _no_influence
+    return lambda me, other, params: chosen(me, other, params)
+
+
+@overload(has_influence, inline="always")
+def _has_influence(params):  # type: ignore[no-untyped-def]
+    if _owner(params.instance_class).influence is None:
+        return lambda params: False
+    return lambda params: True
+
+
+@overload(decide, inline="always")
+def _decide(me, heard, memory, params, draw):  # type: ignore[no-untyped-def]
+    chosen = _owner(params.instance_class).decide
+    return lambda me, heard, memory, params, draw: chosen(me, heard, memory, params, draw)
+
+
+def _owner(params_class: type[Any]) -> Strategy:
+    return next(known for known in CATALOGUE.values() if known.params is params_class)

@@ -1,0 +1,104 @@
+"""The paper's strategy: k-nearest particle-swarm attraction with adaptive repulsion.
+
+Kwa, Tokic, Yue, Bouffanais, "Heterogeneous Swarms for Maritime Dynamic Target Search and Tracking", OCEANS 2020:
+Eqs. 2-4, Algorithms 1 and 2. The predecessor (Kwa, Leong Kit, Bouffanais, AAMAS 2020) differs in parameters only.
+"""
+
+import math
+from typing import Annotated, NamedTuple
+
+from shoal.core.draws import uniform
+from shoal.core.kernel import kernel
+from shoal.core.units import Choice, Meters, Says
+from shoal.strategies.contract import strategy
+
+
+class KnnPso(NamedTuple):
+    """Parameters; the paper adds pure numbers per step, so social and repulsion_step act once per time-step."""
+
+    inertia: Annotated[float, Says("omega: share of the velocity kept from one step to the next")] = 1.0
+    social: Annotated[float, Says("c: largest share of the way to the leader wanted in one step")] = 0.5
+    social_draws: Annotated[int, Choice(("scalar", "per-axis")), Says("r: one draw for both axes, or one each")] = 0
+    follow: Annotated[int, Choice(("nearest", "lowest-index")), Says("which neighbor on target is followed")] = 0
+    repulsion_start: Annotated[Meters, Says("a_R at the start")] = 0.5013256549262001
+    repulsion_min: Annotated[Meters, Says("a_R shrinks while above this and somebody is on target")] = 0.375
+    repulsion_max: Annotated[Meters, Says("a_R grows while below this and nobody is on target")] = 1.5
+    repulsion_up: Annotated[Meters, Says("delta: growth of a_R in one step")] = 0.01
+    repulsion_down: Annotated[Meters, Says("delta: shrinkage of a_R in one step")] = 0.01
+    repulsion_exponent: Annotated[float, Says("d: steepness of the repulsion")] = 6.0
+    repulsion_step: Annotated[Meters, Says("way that a neighbor at distance a_R pushes in one step")] = 1.0
+
+
+def begin(me, memory, params, draw):  # type: ignore[no-untyped-def]
+    """a_R at the start."""
+    memory.repulsion = params.repulsion_start
+
+
+def priority(me, other, params):  # type: ignore[no-untyped-def]
+    """Nbest: the nearest neighbor on target, or the one of lowest index."""
+    dx = me.x - other.x
+    dy = me.y - other.y
+    nearest = dx * dx + dy * dy
+    return nearest if params.follow == 0 else float(other.index)
+
+
+def influence(me, other, params):  # type: ignore[no-untyped-def]
+    """One term of Eq. 4 without a_R^d, which `decide` multiplies: r_ij^-d (x_i - x_j) / r_ij  [m^-d].
+
+    The softening keeps agents at the same place finite: they give no push, having no direction.
+    """
+    dx = me.x - other.x
+    dy = me.y - other.y
+    square = dx * dx + (dy * dy + _SOFTENING)
+    if params.repulsion_exponent == 6.0:
+        inverse = 1.0 / square
+        fourth = inverse * inverse
+        push = fourth * fourth * math.sqrt(square)  # r^-7
+    else:
+        push = square ** (-0.5 * (params.repulsion_exponent + 1.0))
+    return push * dx, push * dy
+
+
+def decide(me, heard, memory, params, draw):  # type: ignore[no-untyped-def]
+    """k-nearest PSO with adaptive repulsion (Kwa et al., OCEANS 2020).
+
+    v <- omega v + (c r (Nbest - x) + repulsion_step sum_j (a_R / r_ij)^d (x_i - x_j) / r_ij) / dt     Eqs. 2-4
+    """
+    adapt_repulsion(me, heard, memory, params)
+    if params.repulsion_exponent == 6.0:
+        cube = memory.repulsion * memory.repulsion * memory.repulsion
+        strength = cube * cube
+    else:
+        strength = memory.repulsion**params.repulsion_exponent
+    push = params.repulsion_step * strength
+    step_x = push * heard.sum_x
+    step_y = push * heard.sum_y
+    if heard.found and not me.on_target:
+        draw_x = uniform(draw, 0)
+        draw_y = draw_x if params.social_draws == 0 else uniform(draw, 1)
+        step_x += params.social * draw_x * (heard.x - me.x)
+        step_y += params.social * draw_y * (heard.y - me.y)
+    rate = 1.0 / me.time_step
+    return params.inertia * me.vx + rate * step_x, params.inertia * me.vy + rate * step_y
+
+
+@kernel
+def adapt_repulsion(me, heard, memory, params):  # type: ignore[no-untyped-def]
+    """Algorithm 1 to the letter: test, then step, so a_R can end up to one delta outside its range."""
+    if me.on_target or heard.found:
+        if memory.repulsion > params.repulsion_min:
+            memory.repulsion -= params.repulsion_down
+    elif memory.repulsion < params.repulsion_max:
+        memory.repulsion += params.repulsion_up
+
+
+_SOFTENING = 1e-24  # [m^2]: below the last digit of any distance over 10 nm
+
+strategy(
+    "knn-pso",
+    params=KnnPso,
+    memory={"repulsion": "m"},
+    begin=begin,
+    priority=priority,
+    influence=influence,
+)(decide)

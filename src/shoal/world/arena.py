@@ -1,0 +1,23 @@
+"""The facts of the world that no agent controls, as scalars for the kernels."""
+
+from typing import NamedTuple
+
+
+class World(NamedTuple):
+    """Arena and rules of one run. Lengths [m], times [s].
+
+    clamp_x, clamp_y : agents are kept within +- these
+    half_x, half_y : half the sides of the arena, where agents start
+    sequential : agents move one after the other, later ones seeing the moved ones
+    divide : the paper's printed speed rule, v / vmax, instead of the cap
+    """
+
+    agents: int
+    fleets: int
+    time_step: float
+    half_x: float
+    half_y: float
+    clamp_x: float
+    clamp_y: float
+    sequential: bool
+    divide: bool

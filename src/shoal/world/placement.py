@@ -1,0 +1,31 @@
+"""Where agents start, at rest."""
+
+from shoal.core.draws import START_STEP, split, uniform
+from shoal.core.kernel import kernel
+
+PLACES = ("uniform", "center", "corner")
+_CENTER = 1
+_CORNER = 2
+_PLACEMENT = 1 << 20  # a purpose that no strategy draws for
+_CLUSTER = 0.1  # side of the cluster, as a share of the arena's
+
+
+@kernel
+def place(swarm, world, places, run_key):  # type: ignore[no-untyped-def]
+    """Scatter agents uniformly over the arena, or over a tenth of its sides at the center or in a corner.
+
+    places : index into PLACES of each fleet
+    """
+    for i in range(world.agents):
+        draw = split(split(split(run_key, START_STEP), i), _PLACEMENT)
+        x = 2.0 * uniform(draw, 0) - 1.0
+        y = 2.0 * uniform(draw, 1) - 1.0
+        where = places[swarm.fleet[i]]
+        if where == _CENTER:
+            x *= _CLUSTER
+            y *= _CLUSTER
+        elif where == _CORNER:
+            x = _CLUSTER * (x + 1.0) - 1.0
+            y = _CLUSTER * (y + 1.0) - 1.0
+        swarm.x[i] = world.half_x * x
+        swarm.y[i] = world.half_y * y
