@@ -51,7 +51,11 @@ def spread(model, seed=0, steps=30):
 def assert_same(one, other, atol=0.0):
     for field in dataclasses.fields(one):
         np.testing.assert_allclose(
-            getattr(one, field.name), getattr(other, field.name), rtol=0, atol=atol, err_msg=field.name
+            getattr(one, field.name),
+            getattr(other, field.name),
+            rtol=0,
+            atol=atol,
+            err_msg=field.name,
         )
 
 
@@ -218,7 +222,10 @@ class TestStep5Velocity:
         r = np.random.default_rng(1).random(50)
         one = step(oceans2020(k=5), start, r, np.zeros(2))[0]
         two = step(
-            dataclasses.replace(oceans2020(k=5), per_axis_r=True), start, np.stack([r, r], 1), np.zeros(2)
+            dataclasses.replace(oceans2020(k=5), per_axis_r=True),
+            start,
+            np.stack([r, r], 1),
+            np.zeros(2),
         )[0]
         assert_same(one, two)
 
@@ -349,7 +356,11 @@ class TestStep8Target:
     def move(self, heading=EAST, target=(0.0, 0.0), waypoint=(100.0, 0.0), steps_on_waypoint=0, **switches):
         far_away = [(500, 500), (-500, 500)]
         start = state(
-            far_away, target=target, heading=heading, waypoint=waypoint, steps_on_waypoint=steps_on_waypoint
+            far_away,
+            target=target,
+            heading=heading,
+            waypoint=waypoint,
+            steps_on_waypoint=steps_on_waypoint,
         )
         return advance(model(**{**TURNING, **switches}), start, new_waypoint=(-7.0, 3.0))[0]
 
@@ -366,7 +377,8 @@ class TestStep8Target:
         assert self.angle(waypoint=(100, 100 * math.tan(math.radians(12)))) == pytest.approx(12)
 
     @pytest.mark.parametrize(
-        ("waypoint", "turn"), [((0, 50), 20), ((0, -50), -20), ((-50, 1), 20), ((-50, -1), -20)]
+        ("waypoint", "turn"),
+        [((0, 50), 20), ((0, -50), -20), ((-50, 1), 20), ((-50, -1), -20)],
     )
     def test_a_large_turn_is_made_the_shorter_way_and_in_part(self, waypoint, turn):
         assert self.angle(waypoint=waypoint) == pytest.approx(turn)
@@ -458,7 +470,12 @@ class TestPhi:
 
     def phi(self, v, x=(0.0, 0.0), target=(3.0, 0.0), **switches):
         start = state(
-            [x, (900, 900)], v=[v, (0, 0)], a=0.0, target=target, heading=(0.0, 1.0), waypoint=(3.0, 90.0)
+            [x, (900, 900)],
+            v=[v, (0, 0)],
+            a=0.0,
+            target=target,
+            heading=(0.0, 1.0),
+            waypoint=(3.0, 90.0),
         )
         return advance(model(**{"rho": 0.0, **STILL, **switches}), start)[1].phi[0]
 
@@ -578,7 +595,8 @@ class TestSymmetries:
     """The model knows no direction but the arena's; a synchronous one knows no order of agents."""
 
     presets = pytest.mark.parametrize(
-        "preset", [oceans2020(), aamas2020(k=19), dataclasses.replace(oceans2020(), speed_rule="divide")]
+        "preset",
+        [oceans2020(), aamas2020(k=19), dataclasses.replace(oceans2020(), speed_rule="divide")],
     )
 
     @staticmethod
@@ -586,7 +604,10 @@ class TestSymmetries:
         matrix, shift = np.array(matrix, dtype=float), np.array(shift)
         points = {name: getattr(state, name) @ matrix.T + shift for name in ("x", "target", "waypoint")}
         return dataclasses.replace(
-            state.copy(), **points, v=state.v @ matrix.T, heading=state.heading @ matrix.T
+            state.copy(),
+            **points,
+            v=state.v @ matrix.T,
+            heading=state.heading @ matrix.T,
         )
 
     @presets
@@ -620,7 +641,9 @@ class TestSymmetries:
         renumbered = dataclasses.replace(start.copy(), x=start.x[order], v=start.v[order], a=start.a[order])
         new, seen = advance(preset, start, r=r)
         other, seen_other = advance(
-            dataclasses.replace(preset, max_speed=preset.max_speed[order]), renumbered, r=r[order]
+            dataclasses.replace(preset, max_speed=preset.max_speed[order]),
+            renumbered,
+            r=r[order],
         )
         np.testing.assert_allclose(new.x[order], other.x, rtol=0, atol=1e-14)
         np.testing.assert_allclose(seen.phi[order], seen_other.phi, rtol=0, atol=1e-12)
@@ -653,7 +676,8 @@ class TestStep:
                 assert not np.shares_memory(getattr(start, field.name), getattr(copy, field.name))
 
     @pytest.mark.parametrize(
-        "wrong", [{"k": 50}, {"k": 0}, {"update": "random"}, {"follow": "best"}, {"speed_rule": "none"}]
+        "wrong",
+        [{"k": 50}, {"k": 0}, {"update": "random"}, {"follow": "best"}, {"speed_rule": "none"}],
     )
     def test_a_model_that_means_nothing_is_refused(self, wrong):
         with pytest.raises(AssertionError):

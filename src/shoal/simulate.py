@@ -54,8 +54,9 @@ def simulate(
     ScenarioError, TrackError, StrategyError : what cannot run
     RecordError : `out` exists or cannot be written
     """
-    if runs < 1:
-        raise ScenarioError("runs", f"is {runs}", "ask for 1 or more")
+    for name, number in (("runs", runs), ("jobs", jobs), ("every", every)):
+        if number is not None and number < 1:
+            raise ScenarioError(name, f"is {number}", "ask for 1 or more")
     begun, started = time.perf_counter(), datetime.now(UTC)
     with RecordFolder(out) if out is not None else nullcontext() as folder:
         keep = _Keep(scenario.steps, every, folder)

@@ -52,14 +52,14 @@ class Simulation:
         self.scenario = scenario
         self.run = run
         self.number = 0
-        self.notes: list[str] = []
         strategy = CATALOGUE[scenario.strategy.name]
         self.memory_fields = tuple(strategy.memory)
         self.params = scenario.strategy.kernel_params()
         self.world = _build_world(scenario)
         self.swarm = _build_swarm(scenario, self.memory_fields)
-        self.targets, self.tracks, tracks = _build_targets(scenario)
-        self.notes += [note for track in tracks for note in track.notes]
+        tracks = open_tracks(scenario)
+        self.notes = [note for track in tracks for note in track.notes]
+        self.targets, self.tracks = _build_targets(scenario, tracks)
         self.tally = new_tally(min(BATCHES, scenario.steps), len(scenario.fleets))
         self._begin, self._rollout = _compiled(scenario.strategy.name)
         self._seed = np.uint64(scenario.seed)
@@ -229,10 +229,22 @@ def _build_swarm(scenario: Scenario, memory_fields: tuple[str, ...]) -> Swarm:
     return swarm
 
 
-def _build_targets(scenario: Scenario) -> tuple[Any, Tracks, list[Track]]:
+def open_tracks(scenario: Scenario) -> list[Track]:
+    """Read the recorded tracks of a scenario, in the order of its targets.
+
+    Raises
+    ------
+    TrackError : one cannot be used
+    ScenarioError : one is not what the scenario was made with
+    """
+    return [_open_track(target, scenario) for target in scenario.targets if isinstance(target, TrackTarget)]
+
+
+def _build_targets(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Any, Tracks]:
     """One record per target; the fixes of recorded ones behind each other."""
     targets = np.zeros(len(scenario.targets), TARGET)
-    tracks: list[Track] = []
+    unread = list(tracks)
+    first_fix = 0
     for record, target in zip(targets, scenario.targets, strict=True):
         record["kind"] = KINDS.index(target.kind)
         record["radius"] = target.radius
@@ -248,12 +260,12 @@ def _build_targets(scenario: Scenario) -> tuple[Any, Tracks, list[Track]]:
             record["waypoint_reach"] = target.waypoint_reach
             record["waypoint_patience"] = target.waypoint_patience
         else:
-            track = _open_track(target, scenario)
-            record["first_fix"] = sum(each.time.size for each in tracks)
+            track = unread.pop(0)
+            record["first_fix"] = first_fix
             record["fixes"] = track.time.size
             record["max_gap"] = track.max_gap
-            tracks.append(track)
-    return targets, _join_tracks(tracks), tracks
+            first_fix += track.time.size
+    return targets, _join_tracks(tracks)
 
 
 def _open_track(target: TrackTarget, scenario: Scenario) -> Track:

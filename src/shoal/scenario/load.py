@@ -75,10 +75,15 @@ def to_toml(scenario: Scenario) -> str:
     return tomli_w.dumps(_without_none(scenario.model_dump(mode="json")))
 
 
+def preset_text(name: str) -> str | None:
+    """The file of a preset, comments and all; None if there is none of this name."""
+    return (_preset_folder() / f"{name}.toml").read_text(encoding="utf-8") if name in presets() else None
+
+
 def _text_of(source: str | Path) -> str:
-    preset = _preset_folder() / f"{source}.toml"
-    if str(source) in presets():
-        return preset.read_text(encoding="utf-8")
+    preset = preset_text(str(source))
+    if preset is not None:
+        return preset
     path = Path(source)
     try:
         return path.read_text(encoding="utf-8")
@@ -99,7 +104,8 @@ def _as_scenario_error(
     problems: Sequence[tuple[tuple[Any, ...], Any]], table: Mapping[str, Any], where: str, text: str
 ) -> ScenarioError:
     """One error for all problems, the first in full."""
-    (loc, first), *others = problems
+    real = [(loc, each) for loc, each in problems if each["type"] != "too_short"]  # follows from others in a tuple
+    (loc, first), *others = real or problems
     path = _path(loc)
     line = _line_of(path, text)
     place = ":".join(str(part) for part in (where, line) if part)
@@ -113,14 +119,14 @@ def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tup
     value = error.get("input")
     known = _known_fields(path, table)
     if error["type"] == "extra_forbidden":
-        near = difflib.get_close_matches(str(path[-1]), known, n=1, cutoff=0.5)
+        near = difflib.get_close_matches(str(path[-1]), known, n=1, cutoff=0.6)
         hint = f"did you mean {near[0]!r}?" if near else f"fields here: {', '.join(known)}"
         return f"unknown field (value {value!r})", hint
     if error["type"] == "missing":
         return "is required and missing", f"add {path[-1]} = ..."
     if error["type"] == "value_error":
-        reason = str(error["ctx"]["error"])
-        return reason, "change the value"
+        problem, _, fix = str(error["ctx"]["error"]).partition("; ")
+        return problem, fix or "change the value"
     if error["type"] == "strategy_name":
         names = error["ctx"]["known"].split(", ")
         wrong = value.get("name") if isinstance(value, dict) else value

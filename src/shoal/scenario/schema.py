@@ -154,7 +154,7 @@ class Scenario(Frozen):
     @model_validator(mode="after")
     def _two_agents(self) -> Self:
         if not 2 <= self.agents <= 100_000:
-            raise ValueError(f"the fleets have {self.agents} agents together; a swarm has 2 to 100000: change count")
+            raise ValueError(f"the fleets have {self.agents} agents together; a swarm has 2 to 100000; change count")
         return self
 
     @model_validator(mode="after")

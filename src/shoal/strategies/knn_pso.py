@@ -23,8 +23,8 @@ class KnnPso(NamedTuple):
     repulsion_start: Annotated[Meters, Says("a_R at the start")] = 0.5013256549262001
     repulsion_min: Annotated[Meters, Says("a_R shrinks while above this and somebody is on target")] = 0.375
     repulsion_max: Annotated[Meters, Says("a_R grows while below this and nobody is on target")] = 1.5
-    repulsion_up: Annotated[Meters, Says("delta: growth of a_R in one step")] = 0.01
-    repulsion_down: Annotated[Meters, Says("delta: shrinkage of a_R in one step")] = 0.01
+    delta: Annotated[Meters, Says("growth of a_R in one step with nobody on target")] = 0.01
+    shrink: Annotated[float, Says("deltas that a_R shrinks by in one step with somebody on target")] = 1.0
     repulsion_exponent: Annotated[float, Says("d: steepness of the repulsion")] = 6.0
     repulsion_step: Annotated[Meters, Says("way that a neighbor at distance a_R pushes in one step")] = 1.0
 
@@ -87,9 +87,9 @@ def adapt_repulsion(me, heard, memory, params):  # type: ignore[no-untyped-def]
     """Algorithm 1 to the letter: test, then step, so a_R can end up to one delta outside its range."""
     if me.on_target or heard.found:
         if memory.repulsion > params.repulsion_min:
-            memory.repulsion -= params.repulsion_down
+            memory.repulsion -= params.delta * params.shrink
     elif memory.repulsion < params.repulsion_max:
-        memory.repulsion += params.repulsion_up
+        memory.repulsion += params.delta
 
 
 _SOFTENING = 1e-24  # [m^2]: below the last digit of any distance over 10 nm

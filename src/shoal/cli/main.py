@@ -1,0 +1,57 @@
+"""The command line: one file per verb, imported when called, so that `shoal --help` is instant."""
+
+import os
+import sys
+
+from cyclopts import App, CycloptsError
+
+from shoal.core.errors import ShoalError
+from shoal.version import VERSION
+
+BAD_INPUT = 2
+INTERRUPTED = 130
+
+app = App(
+    name="shoal",
+    version=VERSION,
+    help="Design, test and deploy swarms that search for and track moving targets at sea.",
+    help_format="plaintext",
+)
+app.command("shoal.cli.run:run", name="run", help="Run a scenario and print its metrics.")
+app.command("shoal.cli.show:show", name="show", help="Print the table of a saved record, and draw its figure.")
+app.command("shoal.cli.listing:presets", name="presets", help="List the scenarios that come with Shoal.")
+app.command("shoal.cli.listing:strategies", name="strategies", help="List the strategies that come with Shoal.")
+app.command("shoal.cli.scenario:scenario", name="scenario", help="Print the TOML of a preset, to start your own from.")
+app.command("shoal.cli.scenario:check", name="check", help="Check that a scenario can run.")
+app.command("shoal.cli.scenario:schema", name="schema", help="Print the JSON Schema of scenario files.")
+
+
+def main() -> None:
+    """Run the command line and exit: 0 fine, 2 bad input, 130 interrupted."""
+    sys.exit(run_command(sys.argv[1:]))
+
+
+def run_command(tokens: list[str]) -> int:
+    """Run one command and return its exit code; every error of the user is one message on stderr."""
+    try:
+        app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
+    except CycloptsError as error:
+        _complain(f"{_one_line(error)}\n  fix: see `shoal {' '.join(tokens[:1])} --help`")
+        return BAD_INPUT
+    except ShoalError as error:
+        _complain(str(error))
+        return BAD_INPUT
+    except KeyboardInterrupt:
+        _complain("interrupted; nothing was left half-written")
+        return INTERRUPTED
+    except BrokenPipeError:  # the reader of our output left, as `| head` does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return 0
+
+
+def _one_line(error: CycloptsError) -> str:
+    return " ".join(str(error).split())
+
+
+def _complain(message: str) -> None:
+    sys.stderr.write(f"shoal: {message}\n")

@@ -1,0 +1,25 @@
+"""From command-line options to a scenario's raw table."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from shoal.scenario.edit import apply, parse_assignment, parse_value
+from shoal.scenario.load import read_table
+from shoal.scenario.on_track import put_on_track
+
+
+def edited_table(
+    source: str, changes: Mapping[str, Any], assignments: Sequence[str], track: str | None, track_id: str | None
+) -> dict[str, Any]:
+    """Return the table of a preset or file with options applied in this order: changes, track, assignments."""
+    table = read_table(source)
+    wanted = {name: value for name, value in changes.items() if value is not None}
+    if isinstance(speed := wanted.get("target-speed"), str):
+        wanted["target-speed"] = parse_value(speed)
+    if track:
+        # what the track decides, an option overrides
+        late = {name: wanted.pop(name) for name in ("steps", "target-speed") if name in wanted}
+        table = put_on_track(apply(table, wanted), track, track_id)
+        wanted = late
+    table = apply(table, wanted)
+    return apply(table, dict(parse_assignment(each) for each in assignments))

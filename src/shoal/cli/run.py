@@ -1,0 +1,115 @@
+"""shoal run: one scenario, R runs, a table of results."""
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from shoal.cli.options import edited_table
+from shoal.cli.progress import note, progress_bar
+
+
+def run(
+    scenario: str,
+    /,
+    *,
+    neighbors: Annotated[int | None, Parameter(name=["--neighbors", "-k"])] = None,
+    fast: int | None = None,
+    agents: int | None = None,
+    target_speed: str | None = None,
+    steps: int | None = None,
+    seed: int | None = None,
+    runs: int = 1,
+    jobs: int | None = None,
+    strategy: str | None = None,
+    target_track: str | None = None,
+    track_id: str | None = None,
+    assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
+    every: int | None = None,
+    out: Path | None = None,
+    figure: Path | None = None,
+    json_: Annotated[bool, Parameter(name="--json", negative=())] = False,
+) -> None:
+    """Run a scenario and print time on target, velocity fluctuation and heading-bearing correlation.
+
+    Parameters
+    ----------
+    scenario
+        A preset's name (see `shoal presets`) or a TOML file.
+    neighbors
+        k: every agent hears its k nearest others.
+    fast
+        Number of agents of the fastest fleet; the slowest fleet gives or takes the difference.
+    agents
+        Number of agents in all, in the scenario's shares of fleets.
+    target_speed
+        Speed of the waypoint targets: m/s, or with a unit, such as "6 kn".
+    steps
+        Time-steps of a run.
+    seed
+        Seed of all chance; run r of two scenarios with one seed shares its target path and its starts.
+    runs
+        Independent replicates; with 2 or more, intervals are over them.
+    jobs
+        Threads, one run each; default one per core.
+    strategy
+        A strategy's name (see `shoal strategies`) or a Python file that defines one.
+    target_track
+        Recorded track to follow instead (CSV, GPX, NetCDF): the arena and all lengths are fitted around it.
+    track_id
+        Which track of the file, as COLUMN=VALUE, such as mmsi=235069877.
+    assignments
+        Any field by its path, such as strategy.delta=0.02 or fleets.BoB-1.start=corner; may be repeated.
+    every
+        With --out, keep every so many-th step of every run; default an overview of the first run and its last steps.
+    out
+        Save the record to this new folder.
+    figure
+        Draw the result to this file (.png, .svg or .pdf).
+    json_
+        Print one JSON object and nothing else.
+    """
+    from shoal.core.errors import ScenarioError
+    from shoal.scenario.load import scenario_from
+    from shoal.simulate import simulate
+    from shoal.simulation import needs_compiling
+
+    changes: dict[str, Any] = {
+        "agents": agents,
+        "fast": fast,
+        "strategy": strategy,
+        "neighbors": neighbors,
+        "target-speed": target_speed,
+        "steps": steps,
+        "seed": seed,
+    }
+    if track_id and not target_track:
+        raise ScenarioError("--track-id", "needs --target-track", "name the file that holds the track")
+    if figure:
+        from shoal.viz.files import check_figure_path
+
+        check_figure_path(figure)
+    table = edited_table(scenario, changes, assignments or [], target_track, track_id)
+    chosen = scenario_from(table, where=scenario)
+    if needs_compiling(chosen):
+        note(f"compiling the engine for strategy {chosen.strategy.name!r} (about 15 s, once per version of Shoal)")
+    with progress_bar(f"{chosen.name}, {runs} x {chosen.steps:,} steps") as progress:
+        record = simulate(chosen, runs=runs, jobs=jobs, every=every, out=out, progress=progress)
+    for each in record.provenance["notes"]:
+        note(each)
+    if figure:
+        from shoal.viz.files import save_figure
+        from shoal.viz.summary import summary_figure
+
+        save_figure(summary_figure(record), figure)
+        note(f"figure: {figure}")
+    if out:
+        note(f"record: {out} (shoal show {out})")
+    if json_:
+        sys.stdout.write(json.dumps(record.summary()) + "\n")
+    else:
+        from shoal.cli.table import print_record
+
+        print_record(record)

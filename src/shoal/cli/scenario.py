@@ -1,0 +1,47 @@
+"""shoal scenario, check, schema: write, prove and describe scenario files."""
+
+import json
+import sys
+
+from shoal.cli.progress import note
+
+
+def scenario(preset: str, /) -> None:
+    """Print the TOML of a preset, to start a scenario of your own from.
+
+    Parameters
+    ----------
+    preset
+        A preset's name (see `shoal presets`), or a TOML file, which is printed with all defaults filled in.
+    """
+    from shoal.scenario.load import load, preset_text, to_toml
+
+    sys.stdout.write(preset_text(preset) or to_toml(load(preset)))
+
+
+def check(file: str, /) -> None:
+    """Check that a scenario can run, its strategy and its tracks included.
+
+    Parameters
+    ----------
+    file
+        A TOML file or a preset's name.
+    """
+    from shoal.scenario.load import load
+    from shoal.simulation import open_tracks
+
+    loaded = load(file)
+    for track in open_tracks(loaded):
+        for each in track.notes:
+            note(each)
+    sys.stdout.write(
+        f"{file}: fine ({loaded.agents} agents, k = {loaded.network.neighbors}, {loaded.steps:,} steps, "
+        f"scenario {loaded.hash})\n"
+    )
+
+
+def schema() -> None:
+    """Print the JSON Schema of scenario files, for editors."""
+    from shoal.scenario.schema import json_schema
+
+    sys.stdout.write(json.dumps(json_schema(), indent=1) + "\n")

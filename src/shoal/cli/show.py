@@ -1,0 +1,44 @@
+"""shoal show: the table and the figure of a saved record."""
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from shoal.cli.progress import note
+
+
+def show(
+    record: Path,
+    /,
+    *,
+    figure: Path | None = None,
+    json_: Annotated[bool, Parameter(name="--json", negative=())] = False,
+) -> None:
+    """Print the table of a saved record, and draw its figure.
+
+    Parameters
+    ----------
+    record
+        Folder made by `shoal run --out`.
+    figure
+        Where to draw the figure (.png, .svg or .pdf).
+    json_
+        Print one JSON object and nothing else.
+    """
+    from shoal.cli.table import print_record
+    from shoal.record.files import open_record
+
+    opened = open_record(record)
+    if figure:
+        from shoal.viz.files import save_figure
+        from shoal.viz.summary import summary_figure
+
+        save_figure(summary_figure(opened), figure)
+        note(f"figure: {figure}")
+    if json_:
+        sys.stdout.write(json.dumps(opened.summary()) + "\n")
+    else:
+        print_record(opened)

@@ -1,0 +1,151 @@
+"""Changes to a scenario's raw table, before it is validated: what --fast, --set and sweeps do."""
+
+import difflib
+import re
+import tomllib
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from shoal.core.errors import ScenarioError
+from shoal.core.units import Unit
+
+Table = dict[str, Any]
+
+
+def apply(table: Table, changes: Mapping[str, Any]) -> Table:
+    """Return a changed copy of a table; names are shorthands (see SHORTHANDS) or dotted paths like network.neighbors.
+
+    Raises
+    ------
+    ScenarioError : a path that does not exist, or a shorthand that this scenario has no place for
+    """
+    changed: Table = _copy(table)
+    for name, value in changes.items():
+        key = name.replace("-", "_")
+        if key in SHORTHANDS:
+            SHORTHANDS[key](changed, value)
+        else:
+            set_path(changed, name, value)
+    return changed
+
+
+def set_path(table: Table, path: str, value: Any) -> None:
+    """Set a field by its dotted path; lists take an index or, for fleets, a name: fleets.BoB-1.count."""
+    *parents, last = path.split(".")
+    here: Any = table
+    for at, part in enumerate(parents):
+        where = ".".join(parents[: at + 1])
+        if isinstance(here, list):
+            here = here[_index(here, part, where)]
+        elif part == "strategy" and isinstance(here.get(part), str):
+            here[part] = here = {"name": here[part]}
+        elif isinstance(here.get(part), (dict, list)):
+            here = here[part]
+        elif at == 0 and part in ("area", "network", "motion", "strategy"):
+            here = here.setdefault(part, {})
+        else:
+            near = difflib.get_close_matches(part, list(here), n=1)
+            hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(here)}"
+            raise ScenarioError(f"--set {path}", f"the scenario has no {where!r}", hint)
+    if isinstance(here, list):
+        raise ScenarioError(f"--set {path}", "names a whole entry of a list", f"name a field of it: {path}.FIELD=VALUE")
+    here[last] = value
+
+
+def parse_value(text: str) -> Any:
+    """Read a value as TOML would (number, true, list, "text"); anything else is text, such as 5 kn or sequential."""
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        return text
+
+
+def parse_assignment(text: str) -> tuple[str, Any]:
+    """Split "path=value".
+
+    Raises
+    ------
+    ScenarioError : there is no "="
+    """
+    path, equals, value = text.partition("=")
+    if not equals or not re.fullmatch(r"[\w.\-]+", path.strip()):
+        raise ScenarioError(f"--set {text}", "is no assignment", "write path=value, such as network.neighbors=12")
+    return path.strip(), parse_value(value.strip())
+
+
+def _set_neighbors(table: Table, value: Any) -> None:
+    table.setdefault("network", {})["neighbors"] = value
+
+
+def _set_fast(table: Table, value: Any) -> None:
+    """So many agents of the fastest fleet, the rest of the slowest; the number of agents stays."""
+    fast, slow = _fastest_and_slowest(table, "fast")
+    both = fast["count"] + slow["count"]
+    if not isinstance(value, int) or not 0 <= value <= both:
+        raise ScenarioError("fast", f"is {value!r}", f"give a number of agents from 0 to {both}")
+    fast["count"], slow["count"] = value, both - value
+    table["fleets"] = [fleet for fleet in table["fleets"] if fleet["count"] != 0]
+
+
+def _set_agents(table: Table, value: Any) -> None:
+    """So many agents in all, in the same shares of the fleets (largest remainders)."""
+    if not isinstance(value, int) or value < 2:
+        raise ScenarioError("agents", f"is {value!r}", "give a number of agents, 2 or more")
+    fleets = table["fleets"]
+    whole = sum(fleet["count"] for fleet in fleets)
+    exact = [fleet["count"] * value / whole for fleet in fleets]
+    counts = [int(share) for share in exact]
+    for f in sorted(range(len(fleets)), key=lambda f: counts[f] - exact[f])[: value - sum(counts)]:
+        counts[f] += 1
+    for fleet, count in zip(fleets, counts, strict=True):
+        fleet["count"] = count
+    table["fleets"] = [fleet for fleet in fleets if fleet["count"] > 0]
+
+
+def _set_target_speed(table: Table, value: Any) -> None:
+    moving = [target for target in table.get("targets", []) if "speed" in target]
+    if not moving:
+        raise ScenarioError("target-speed", "no target of this scenario has a speed", "use a waypoint target")
+    for target in moving:
+        target["speed"] = value
+
+
+def _set_strategy(table: Table, value: Any) -> None:
+    """Another strategy with its defaults (the same one keeps its parameters), or a file that defines one."""
+    old = table.get("strategy")
+    if isinstance(value, str) and (value.endswith(".py") or "/" in value):
+        table["strategy"] = {"file": str(Path(value).resolve())}
+    elif not (isinstance(old, dict) and old.get("name") == value):
+        table["strategy"] = {"name": value}
+
+
+SHORTHANDS: dict[str, Callable[[Table, Any], None]] = {
+    "neighbors": _set_neighbors,
+    "fast": _set_fast,
+    "agents": _set_agents,
+    "target_speed": _set_target_speed,
+    "strategy": _set_strategy,
+}
+
+
+def _fastest_and_slowest(table: Table, option: str) -> tuple[Table, Table]:
+    fleets = sorted(table.get("fleets", []), key=lambda fleet: float(Unit("m/s").parse(fleet["max_speed"])))
+    if len(fleets) < 2:
+        raise ScenarioError(option, "this scenario has one make of agents only", "add a faster fleet to it")
+    return fleets[-1], fleets[0]
+
+
+def _index(entries: list[Any], part: str, where: str) -> int:
+    if part.isdigit() and int(part) < len(entries):
+        return int(part)
+    names = [str(entry.get("name", number)) for number, entry in enumerate(entries)]
+    if part in names:
+        return names.index(part)
+    raise ScenarioError(f"--set {where}", f"there is no entry {part!r}", f"there are: {', '.join(names)}")
+
+
+def _copy(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _copy(item) for key, item in value.items()}
+    return [_copy(item) for item in value] if isinstance(value, (list, tuple)) else value

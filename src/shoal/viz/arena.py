@@ -1,0 +1,82 @@
+"""The empty stage of a snapshot: edge, clamp, axes in m or km, scale bar."""
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from shoal.viz.style import GRAY, INK
+from shoal.viz.words import length_text
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+KILOMETERS_FROM = 2000.0  # [m] longer side from which axes count in km
+PAD = 0.025  # of the longer side, around the arena
+
+
+def draw_arena(axes: "Axes", area: Mapping[str, Any]) -> None:
+    """Draw the edge and, dashed, the line that agents are kept inside of; equal scales [m], ticks in m or km.
+
+    Parameters
+    ----------
+    area : width, height, agent_margin [m], as in a scenario
+    """
+    width, height, margin = area["width"], area["height"], area["agent_margin"]
+    _rectangle(axes, width, height, color=GRAY, linewidth=1.0, fill=True)
+    if margin > 0:
+        _rectangle(axes, width - 2 * margin, height - 2 * margin, color=GRAY, linewidth=0.7, linestyle=(0, (4, 3)))
+    pad = PAD * max(width, height)
+    axes.set_xlim(-width / 2 - pad, width / 2 + pad)
+    axes.set_ylim(-height / 2 - pad, height / 2 + pad)
+    axes.set_aspect("equal", adjustable="box")
+    axes.grid(False)
+    for spine in axes.spines.values():
+        spine.set_visible(False)
+    _label_axes(axes, width, height)
+
+
+def draw_scale_bar(axes: "Axes") -> None:
+    """Draw a bar of a round length in the lower left of what the axes show."""
+    left, right = axes.get_xlim()
+    bottom, top = axes.get_ylim()
+    length = round_length(0.25 * (right - left))
+    pad = 0.06 * max(right - left, top - bottom)
+    x, y = left + pad, bottom + pad
+    box = {"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
+    axes.plot([x, x + length], [y, y], color=INK, linewidth=2.0, solid_capstyle="butt", zorder=8, gid="scale-bar")
+    axes.annotate(
+        length_text(length), (x + length / 2, y), (0, 3), textcoords="offset points", ha="center", va="bottom",
+        fontsize=8, color=INK, bbox=box, zorder=8,
+    )  # fmt: skip
+
+
+def round_length(limit: float) -> float:
+    """The largest 1, 2 or 5 times a power of ten that is not over `limit` [m]."""
+    power = 10.0 ** math.floor(math.log10(limit))
+    return max(digit for digit in (1.0, 2.0, 5.0) if digit * power <= limit * (1 + 1e-9)) * power
+
+
+def in_kilometers(area: Mapping[str, Any]) -> bool:
+    """Whether an arena is shown in km."""
+    return bool(max(area["width"], area["height"]) > KILOMETERS_FROM)
+
+
+def _rectangle(axes: "Axes", width: float, height: float, *, color: str, fill: bool = False, **line: Any) -> None:
+    from matplotlib.patches import Rectangle
+
+    face = "#f7f9fb" if fill else "none"
+    axes.add_patch(
+        Rectangle((-width / 2, -height / 2), width, height, facecolor=face, edgecolor=color, zorder=0.5, **line)
+    )
+
+
+def _label_axes(axes: "Axes", width: float, height: float) -> None:
+    from matplotlib.ticker import FuncFormatter, MaxNLocator
+
+    scale, unit = (1000.0, "km") if max(width, height) > KILOMETERS_FROM else (1.0, "m")
+    axes.set_xlabel(f"east [{unit}]")
+    axes.set_ylabel(f"north [{unit}]")
+    longer = max(width, height)
+    for axis, side in ((axes.xaxis, width), (axes.yaxis, height)):
+        axis.set_major_locator(MaxNLocator(nbins=max(2, round(8 * side / longer)), steps=[1, 2, 5, 10]))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / scale:g}".replace("-", "\u2212")))

@@ -1,0 +1,109 @@
+"""What a figure says in words: counts, estimates, and the lines about a record."""
+
+import math
+from typing import Any
+
+from shoal.record.record import Record
+from shoal.record.statistics import Estimate
+
+_THIN = "\u2009"
+
+
+def plural(number: int, noun: str) -> str:
+    """3 000 steps, 1 run."""
+    return f"{count(number)} {noun}{'' if number == 1 else 's'}"
+
+
+def count(number: int) -> str:
+    """100 000, its thousands set apart."""
+    return f"{number:,}".replace(",", _THIN)
+
+
+def number(value: float, decimals: int) -> str:
+    """A number with a true minus sign, or "unknown"."""
+    return f"{value:.{decimals}f}".replace("-", "\u2212") if math.isfinite(value) else "unknown"
+
+
+def estimate_text(value: Estimate) -> str:
+    """Mean [low, high], to two digits of the interval's half-width."""
+    if value.ci95 is None:
+        return number(value.mean, _decimals(abs(value.mean) / 10))
+    low, high = value.ci95
+    decimals = _decimals((high - low) / 2)
+    return f"{number(value.mean, decimals)} [{number(low, decimals)}, {number(high, decimals)}]"
+
+
+def length_text(meters: float) -> str:
+    """A length in m, or in km from 1 km on."""
+    return f"{meters / 1000:g} km" if meters >= 1000 else f"{meters:g} m"
+
+
+def time_text(seconds: float) -> str:
+    """A time in s, min or h."""
+    for size, unit in ((3600.0, "h"), (60.0, "min")):
+        if seconds >= 2 * size:
+            return f"{seconds / size:.1f} {unit}"
+    return f"{seconds:.1f} s"
+
+
+def setup_phrases(record: Record) -> list[str]:
+    """What was run: agents, k, strategy, targets, steps and runs."""
+    scenario, facts = record.scenario, record.facts
+    fleets = ", ".join(f"{n} {name}" for n, name in zip(facts.counts, facts.fleets, strict=True))
+    agents = plural(facts.agents, "agent")
+    return [
+        f"{agents} ({fleets})" if len(facts.counts) > 1 else f"{agents} {facts.fleets[0]}",
+        f"k = {scenario['network']['neighbors']}",
+        str(scenario["strategy"]["name"]),
+        targets_text(scenario["targets"]),
+        plural(scenario["steps"], "step") + f" of {facts.time_step:g} s",
+        plural(len(record.tallies), "run"),
+    ]
+
+
+def targets_text(targets: list[dict[str, Any]]) -> str:
+    """How many targets and how fast: target 3 m/s; 2 targets (still, 3 m/s)."""
+    how = [_speed_text(target) for target in targets]
+    if len(how) == 1:
+        return f"target {how[0]}"
+    return f"{len(how)} targets ({', '.join(how)})"
+
+
+def metric_phrases(record: Record) -> list[str]:
+    """Key metrics, mean [95 % interval]."""
+    engaged = record.estimate("engaged")
+    return [
+        f"time on target {estimate_text(record.estimate('time_on_target'))}",
+        f"velocity fluctuation Ξ {estimate_text(record.estimate('xi'))}",
+        f"engaged {estimate_text(engaged)}" + (" agents" if math.isfinite(engaged.mean) else ""),
+    ]
+
+
+def interval_text(record: Record) -> str:
+    """What the intervals are over."""
+    runs, batches = len(record.tallies), record.tallies[0].steps.size
+    over = plural(runs, "run") if runs > 1 else f"{plural(batches, 'batch')}es of the run".replace("batchs", "batch")
+    return f"[95 % interval over {over}]"
+
+
+def provenance_phrases(record: Record) -> list[str]:
+    """What identifies the result."""
+    known = record.provenance
+    return [
+        f"scenario {known.get('scenario_hash', 'unknown')}",
+        f"seed {known.get('seed', 'unknown')}",
+        f"shoal {known.get('versions', {}).get('shoal', 'unknown')}",
+    ]
+
+
+def _speed_text(target: dict[str, Any]) -> str:
+    if target["kind"] == "waypoint":
+        return f"{target['speed']:g} m/s"
+    if target["kind"] == "track":
+        return f"recorded ({target['id']})" if target.get("id") else "recorded"
+    return "still"
+
+
+def _decimals(half: float) -> int:
+    """Decimals that show two digits of `half`."""
+    return min(max(1 - math.floor(math.log10(half)), 0), 4) if half > 0 and math.isfinite(half) else 3
