@@ -1,8 +1,8 @@
 """Shoal: design, test and deploy swarms that search for and track moving targets at sea.
 
-    >>> import shoal
-    >>> record = shoal.simulate(shoal.load("oceans2020"), runs=5)
-    >>> record.estimate("time_on_target")
+>>> import shoal
+>>> record = shoal.simulate(shoal.load("oceans2020"), runs=5)
+>>> record.estimate("time_on_target")
 """
 
 from importlib import import_module

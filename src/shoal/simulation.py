@@ -12,7 +12,7 @@ from shoal.core.errors import RecordError, ScenarioError
 from shoal.core.kernel import cache_folder, uncached
 from shoal.engine.rollout import Frames, begin_run, rollout
 from shoal.metrics.summary import Facts
-from shoal.metrics.tally import Tally, new_tally
+from shoal.metrics.tally import new_tally
 from shoal.record.trajectory import Trajectory
 from shoal.scenario.schema import Scenario, StillTarget, TrackTarget, WaypointTarget
 from shoal.scenario.tracks import Track, read_track
@@ -98,7 +98,11 @@ class Simulation:
         """Everything that a resumed run needs, as arrays by name."""
         parts = {f"swarm.{name}": part for name, part in self.swarm._asdict().items()}
         parts |= {f"tally.{name}": part for name, part in self.tally._asdict().items()}
-        return parts | {"targets": self.targets, "number": np.array(self.number), "identity": np.array(self._identity())}
+        return parts | {
+            "targets": self.targets,
+            "number": np.array(self.number),
+            "identity": np.array(self._identity()),
+        }
 
     def save(self, file: str | Path) -> None:
         """Write the state to an .npz file, whole or not at all."""
@@ -110,7 +114,9 @@ class Simulation:
             partial.replace(path)
         except OSError as error:
             partial.unlink(missing_ok=True)
-            raise RecordError(str(path), f"cannot be written: {error.strerror or error}", "name a writable file") from error
+            raise RecordError(
+                str(path), f"cannot be written: {error.strerror or error}", "name a writable file"
+            ) from error
 
     def restore(self, file: str | Path) -> None:
         """Continue from a saved state of the same scenario, seed and run.
@@ -123,7 +129,9 @@ class Simulation:
             with np.load(file) as state:
                 if str(state["identity"]) != self._identity():
                     raise RecordError(
-                        str(file), f"was saved by {state['identity']}, this is {self._identity()}", "use the same scenario"
+                        str(file),
+                        f"was saved by {state['identity']}, this is {self._identity()}",
+                        "use the same scenario",
                     )
                 for group in ("swarm", "tally"):
                     for name, part in getattr(self, group)._asdict().items():
@@ -133,22 +141,26 @@ class Simulation:
         except (OSError, ValueError, KeyError) as error:
             if isinstance(error, RecordError):
                 raise
-            raise RecordError(str(file), f"is no saved state: {error}", "name a file made by Simulation.save") from error
+            raise RecordError(
+                str(file), f"is no saved state: {error}", "name a file made by Simulation.save"
+            ) from error
 
     def _identity(self) -> str:
         return f"{self.scenario.hash}-seed{self.scenario.seed}-run{self.run}-results{RESULTS_VERSION}"
 
     def _new_frames(self, count: int) -> Frames:
         agents, targets = self.scenario.agents, self.targets.size
-        plain = [np.empty((count, agents)) for _ in range(4)]
         return Frames(
-            np.empty(count, np.int64),
-            *plain,
-            np.empty((count, agents), np.bool_),
-            np.empty((count, agents), self.swarm.memory.dtype),
-            np.empty((count, targets)),
-            np.empty((count, targets)),
-            np.empty((count, targets), np.bool_),
+            step=np.empty(count, np.int64),
+            x=np.empty((count, agents)),
+            y=np.empty((count, agents)),
+            vx=np.empty((count, agents)),
+            vy=np.empty((count, agents)),
+            on_target=np.empty((count, agents), np.bool_),
+            memory=np.empty((count, agents), self.swarm.memory.dtype),
+            target_x=np.empty((count, targets)),
+            target_y=np.empty((count, targets)),
+            target_present=np.empty((count, targets), np.bool_),
         )
 
 

@@ -18,7 +18,7 @@ def edited_table(
         wanted["target-speed"] = parse_value(speed)
     if track:
         # what the track decides, an option overrides
-        late = {name: wanted.pop(name) for name in ("steps", "target-speed") if name in wanted}
+        late: dict[str, Any] = {name: wanted.pop(name) for name in ("steps", "target-speed") if name in wanted}
         table = put_on_track(apply(table, wanted), track, track_id)
         wanted = late
     table = apply(table, wanted)

@@ -1,0 +1,1 @@
+"""The vocabulary everybody shares; imports nothing of ours."""

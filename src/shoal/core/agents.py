@@ -27,7 +27,7 @@ aligned_zeros_kernel = kernel(aligned_zeros)
 class Own(NamedTuple):
     """What an agent knows of itself."""
 
-    index: int
+    id: int
     x: float
     y: float
     vx: float
@@ -40,7 +40,7 @@ class Own(NamedTuple):
 class Report(NamedTuple):
     """What an agent tells its neighbors: the one message of the swarm."""
 
-    index: int
+    id: int
     x: float
     y: float
     vx: float
@@ -52,7 +52,7 @@ class Heard(NamedTuple):
     """What an agent made of its neighbors' reports: one leader and one sum.
 
     `found` is whether any neighbor may lead; x, y, vx, vy are the leader's (the agent's own if none).
-    `sum_x`, `sum_y` are the sums of the strategy's influence over all neighbors; `count` is how many were heard.
+    `sum_x`, `sum_y` are the sums of the strategy's influence over all neighbors; `neighbors` is how many were heard.
     """
 
     found: bool
@@ -62,7 +62,7 @@ class Heard(NamedTuple):
     vy: float
     sum_x: float
     sum_y: float
-    count: int
+    neighbors: int
 
 
 class Swarm(NamedTuple):

@@ -22,7 +22,7 @@ START_STEP = (1 << 62) - 1  # draws made before the first step
 
 
 @kernel
-def mix(word):  # type: ignore[no-untyped-def]
+def mix(word):
     """Scramble 64 bits."""
     word = (word ^ (word >> np.uint64(30))) * _FIRST
     word = (word ^ (word >> np.uint64(27))) * _SECOND
@@ -30,19 +30,19 @@ def mix(word):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def split(key, number):  # type: ignore[no-untyped-def]
+def split(key, number):
     """Key number `number` below `key`: of a run below a seed, of a step below a run, of an agent below a step."""
     return mix(key + (np.uint64(number) + _ONE) * _GOLDEN)
 
 
 @kernel
-def uniform(key, purpose):  # type: ignore[no-untyped-def]
+def uniform(key, purpose):
     """Draw from U[0, 1) for a purpose (a small int); the same key and purpose give the same number."""
     return np.float64(split(key, purpose) >> np.uint64(11)) * _TO_UNIT
 
 
 @kernel
-def normal(key, purpose):  # type: ignore[no-untyped-def]
+def normal(key, purpose):
     """Draw from N(0, 1) for a purpose; Box-Muller over two draws below the purpose."""
     below = split(key, purpose)
     radius = math.sqrt(-2.0 * math.log(1.0 - uniform(below, 0)))

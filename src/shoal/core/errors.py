@@ -40,4 +40,5 @@ class MissingExtraError(ShoalError):
 
     @classmethod
     def of(cls, package: str, extra: str, why: str) -> "MissingExtraError":
+        """Return the one sentence: what to install and why."""
         return cls(package, f"is not installed, and {why} needs it", f"pip install 'shoal[{extra}]'")

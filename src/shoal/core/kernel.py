@@ -10,35 +10,37 @@ import tempfile
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numba
+from numba.core import config as numba_config
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
+_config: Any = numba_config  # its settings come from the environment at run time
 _COMPILED_FOLDERS = ("core", "world", "strategies", "metrics", "engine")
 
 
 def kernel(function: Function) -> Function:
     """Compile a function that other kernels call; it is compiled into them and not cached by itself."""
-    return numba.njit(function, **_FLAGS)  # type: ignore[no-any-return]
+    return cast(Function, numba.njit(function, **_FLAGS))
 
 
 def entry_kernel(function: Function) -> Function:
     """Compile a function that Python calls, and keep the machine code on disk for the next process."""
-    outside = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = str(cache_folder())
+    outside = _config.CACHE_DIR
+    _config.CACHE_DIR = str(cache_folder())
     try:
-        return numba.njit(function, cache=True, **_FLAGS)  # type: ignore[no-any-return]
+        return cast(Function, numba.njit(function, cache=True, **_FLAGS))
     finally:
-        numba.config.CACHE_DIR = outside
+        _config.CACHE_DIR = outside
 
 
 def uncached(entry: Function) -> Function:
     """Return a twin of an entry kernel that never touches the cache: for strategies whose source we do not hash."""
-    if numba.config.DISABLE_JIT:
+    if _config.DISABLE_JIT:
         return entry
-    return numba.njit(entry.py_func, **_FLAGS)  # type: ignore[attr-defined,no-any-return]
+    return cast(Function, numba.njit(entry.py_func, **_FLAGS))  # type: ignore[attr-defined]
 
 
 # error_model="numpy": the check for division by zero would stop vectorization (2-3x slower). No fastmath: results

@@ -8,7 +8,7 @@ from shoal.strategies import contract
 
 
 @kernel
-def choose_leaders(swarm, block, links, params, first, agents, time_step, leader, rank):  # type: ignore[no-untyped-def]
+def choose_leaders(swarm, block, links, params, first, agents, time_step, leader, rank):
     """Set leader[i] to the index of the neighbor that listener i follows, -1 if none.
 
     Speakers that may not lead are skipped before the inner loop: few agents are on target at a time.
@@ -31,7 +31,7 @@ def choose_leaders(swarm, block, links, params, first, agents, time_step, leader
 
 
 @kernel
-def sum_influence(swarm, block, links, params, first, agents, time_step, sum_x, sum_y):  # type: ignore[no-untyped-def]
+def sum_influence(swarm, block, links, params, first, agents, time_step, sum_x, sum_y):
     """Add up what the neighbors of each listener exert on it, and count them in links.heard."""
     x, y, vx, vy, on_target, max_speed = block
     lanes = x.size

@@ -33,7 +33,7 @@ class Frames(NamedTuple):
 
 
 @entry_kernel
-def begin_run(world, swarm, targets, tracks, places, params, seed, run):  # type: ignore[no-untyped-def]
+def begin_run(world, swarm, targets, tracks, places, params, seed, run):
     """Place agents and targets and set up every agent's memory."""
     run_key = split(split(seed, 0), run)
     place(swarm, world, places, run_key)
@@ -45,7 +45,7 @@ def begin_run(world, swarm, targets, tracks, places, params, seed, run):  # type
 
 
 @entry_kernel
-def rollout(world, swarm, targets, tracks, params, tally, seed, run, first, last, steps, frames, every, tail):  # type: ignore[no-untyped-def]
+def rollout(world, swarm, targets, tracks, params, tally, seed, run, first, last, steps, frames, every, tail):
     """Run time-steps first..last of `steps`, in place.
 
     Frames are kept of every `every`-th step and of all from step `tail` on. Splitting a run into several calls changes
@@ -65,7 +65,7 @@ def rollout(world, swarm, targets, tracks, params, tally, seed, run, first, last
 
 
 @kernel
-def _keep_frame(frames, frame, number, world, swarm, targets):  # type: ignore[no-untyped-def]
+def _keep_frame(frames, frame, number, world, swarm, targets):
     """Copy the state at the start of a step."""
     frames.step[frame] = number
     for i in range(world.agents):

@@ -29,7 +29,7 @@ class Scratch(NamedTuple):
 
 
 @kernel
-def new_scratch(world, lanes):  # type: ignore[no-untyped-def]
+def new_scratch(world, lanes):
     """Return scratch for blocks of agents that decide together: all of them, or one in the sequential order."""
     width = 1 if world.sequential else lanes
     return Scratch(
@@ -42,7 +42,7 @@ def new_scratch(world, lanes):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def step(world, swarm, targets, tracks, params, tally, batch, step_key, number, scratch):  # type: ignore[no-untyped-def]
+def step(world, swarm, targets, tracks, params, tally, batch, step_key, number, scratch):
     """Advance the world by time-step `number`."""
     engaged = sense(swarm, targets, world.agents)
     present = tally_time_on_target(tally, batch, targets, engaged)
@@ -59,7 +59,7 @@ def step(world, swarm, targets, tracks, params, tally, batch, step_key, number, 
 
 
 @kernel
-def act(world, swarm, params, step_key, scratch, first, last):  # type: ignore[no-untyped-def]
+def act(world, swarm, params, step_key, scratch, first, last):
     """Agents first..last listen, all decide, then all move."""
     x, y = swarm.x[first:last], swarm.y[first:last]
     vx, vy = swarm.vx[first:last], swarm.vy[first:last]
@@ -84,7 +84,7 @@ def act(world, swarm, params, step_key, scratch, first, last):  # type: ignore[n
 
 
 @kernel
-def decide(world, swarm, params, step_key, count, leader, sum_x, sum_y, first, last):  # type: ignore[no-untyped-def]
+def decide(world, swarm, params, step_key, count, leader, sum_x, sum_y, first, last):
     """Every agent asks its strategy for the velocity it wants."""
     for i in range(first, last):
         lane = i - first
@@ -100,13 +100,11 @@ def decide(world, swarm, params, step_key, count, leader, sum_x, sum_y, first, l
             sum_y[lane],
             count[lane],
         )
-        swarm.command_x[i], swarm.command_y[i] = contract.decide(
-            me, heard, swarm.memory[i], params, split(step_key, i)
-        )
+        swarm.command_x[i], swarm.command_y[i] = contract.decide(me, heard, swarm.memory[i], params, split(step_key, i))
 
 
 @kernel
-def own(swarm, i, time_step):  # type: ignore[no-untyped-def]
+def own(swarm, i, time_step):
     """What agent i knows of itself."""
     return Own(
         i,

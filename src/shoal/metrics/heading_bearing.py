@@ -12,7 +12,7 @@ CENTERS = np.linspace(-1.0, 1.0, BINS)
 
 
 @kernel
-def tally_heading_bearing(tally, batch, swarm, agents, targets, bearing_x, bearing_y, phi):  # type: ignore[no-untyped-def]
+def tally_heading_bearing(tally, batch, swarm, agents, targets, bearing_x, bearing_y, phi):
     """Add phi_i = cos(angle between heading and bearing to the nearest target) to the histogram of i's fleet.
 
     Kwa et al., Heterogeneous Swarms, Eq. 8. Positions after the move, targets before theirs; the heading is that of the
@@ -39,20 +39,20 @@ def tally_heading_bearing(tally, batch, swarm, agents, targets, bearing_x, beari
 
 
 @kernel
-def is_stationary(vx, vy, max_speed):  # type: ignore[no-untyped-def]
+def is_stationary(vx, vy, max_speed):
     """Whether an agent is slower than a tenth of its top speed."""
     limit = STATIONARY * max_speed
     return vx * vx + vy * vy < limit * limit
 
 
 @kernel
-def bin_of(phi):  # type: ignore[no-untyped-def]
+def bin_of(phi):
     """Index of the bin of phi: 11 bins centered at -1, -0.8, ..., 1, the outer two half as wide."""
     return min(max(int((phi + 1.0) * 5.0 + 0.5), 0), BINS - 1)
 
 
 @kernel
-def _nearest_bearing(swarm, agents, targets, bearing_x, bearing_y):  # type: ignore[no-untyped-def]
+def _nearest_bearing(swarm, agents, targets, bearing_x, bearing_y):
     """Vector from each agent to its nearest target that is there."""
     for i in range(agents):
         bearing_x[i] = np.inf

@@ -1,12 +1,13 @@
 """From sums to numbers: every metric as one formula over a tally, for all steps or for one batch of them."""
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from shoal.core.agents import Floats
-from shoal.metrics.tally import Tally
+from shoal.metrics.tally import Tally, batch_of
 
 
 class Facts(NamedTuple):
@@ -37,13 +38,15 @@ class Metric(NamedTuple):
     formula: Callable[[Tally, Facts], float]
 
 
-def _share(part: Floats, whole: Floats) -> float:
+def _share(part: npt.NDArray[Any], whole: Floats) -> float:
     return float(part.sum() / whole.sum()) if whole.sum() > 0 else float("nan")
 
 
 METRICS: dict[str, Metric] = {
     "time_on_target": Metric(
-        "1", "share of the steps with a target there at which an agent is on it", lambda t, f: _share(t.on_target, t.present)
+        "1",
+        "share of the steps with a target there at which an agent is on it",
+        lambda t, f: _share(t.on_target, t.present),
     ),
     "xi": Metric(
         "1",
@@ -73,7 +76,7 @@ METRICS: dict[str, Metric] = {
 def evaluate(name: str, tally: Tally, facts: Facts) -> tuple[float, Floats]:
     """Return a metric over all steps and over each batch of steps, (B,)."""
     formula = METRICS[name].formula
-    batches = [formula(Tally(*(part[b : b + 1] for part in tally)), facts) for b in range(tally.steps.size)]
+    batches = [formula(batch_of(tally, b), facts) for b in range(tally.steps.size)]
     return formula(tally, facts), np.array(batches)
 
 

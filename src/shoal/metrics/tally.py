@@ -28,11 +28,19 @@ class Tally(NamedTuple):
     stationary: npt.NDArray[np.int64]
 
 
+def batch_of(tally: Tally, batch: int) -> Tally:
+    """The sums of one batch, as a tally of its own (B = 1)."""
+    return Tally._make(part[batch : batch + 1] for part in tally)
+
+
 def new_tally(batches: int, fleets: int) -> Tally:
     """Return an empty tally."""
     return Tally(
-        *(np.zeros(batches) for _ in range(4)),
-        np.zeros((batches, fleets)),
-        np.zeros((batches, fleets, BINS), np.int64),
-        np.zeros((batches, fleets), np.int64),
+        steps=np.zeros(batches),
+        present=np.zeros(batches),
+        on_target=np.zeros(batches),
+        engaged=np.zeros(batches),
+        fluctuation=np.zeros((batches, fleets)),
+        histogram=np.zeros((batches, fleets, BINS), np.int64),
+        stationary=np.zeros((batches, fleets), np.int64),
     )

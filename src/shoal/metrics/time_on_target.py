@@ -4,7 +4,7 @@ from shoal.core.kernel import kernel
 
 
 @kernel
-def tally_time_on_target(tally, batch, targets, engaged):  # type: ignore[no-untyped-def]
+def tally_time_on_target(tally, batch, targets, engaged):
     """Count a step; returns whether any target is there. `engaged` agents are on target (before the move)."""
     present = False
     for target in targets:

@@ -6,7 +6,7 @@ from shoal.core.kernel import kernel
 
 
 @kernel
-def tally_velocity_fluctuation(tally, batch, swarm, agents, scratch):  # type: ignore[no-untyped-def]
+def tally_velocity_fluctuation(tally, batch, swarm, agents, scratch):
     """Add |u_i| = |v_i - mean v| of every agent, by fleet; v at the start of the step.
 
     Kwa et al., Heterogeneous Swarms, Eq. 5. Eq. 7 as printed sums vectors that cancel to zero; the norm is meant.

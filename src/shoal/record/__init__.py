@@ -1,0 +1,1 @@
+"""What runs leave behind, in memory and on disk."""

@@ -8,7 +8,7 @@ import json
 import shutil
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 
@@ -83,7 +83,9 @@ class RecordFolder:
     def unwritable(self, error: OSError) -> RecordError:
         """The one error for every reason that the disk gives."""
         return RecordError(
-            str(self.folder), f"cannot be written: {error.strerror or error}", "free space, or name a folder you may write"
+            str(self.folder),
+            f"cannot be written: {error.strerror or error}",
+            "free space, or name a folder you may write",
         )
 
 
@@ -110,7 +112,7 @@ def open_record(folder: str | Path) -> Record:
         raise RecordError(str(folder), "is no record (it has no record.json)", "name a folder made by --out")
     try:
         content = json.loads((folder / "record.json").read_text(encoding="utf-8"))
-        facts = Facts(*(tuple(part) if isinstance(part, list) else part for part in content["facts"].values()))
+        facts = Facts._make(tuple(part) if isinstance(part, list) else part for part in content["facts"].values())
         with np.load(folder / "tallies.npz") as arrays:
             tallies = tuple(
                 Tally(*(arrays[f"{run}.{name}"] for name in Tally._fields)) for run in range(content["summary"]["runs"])
@@ -123,5 +125,3 @@ def open_record(folder: str | Path) -> Record:
 
 def _run_name(run: int) -> str:
     return f"run-{run:04d}"
-
-

@@ -1,5 +1,6 @@
 """Record: what runs leave behind, with units and provenance."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -7,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.metrics.summary import METRICS, Facts, evaluate, fleet_fluctuation, fleet_stationary, phi_histogram
-from shoal.metrics.tally import Tally
+from shoal.metrics.tally import Tally, batch_of
 from shoal.record.statistics import Estimate, estimate
 from shoal.record.trajectory import Trajectory
 
@@ -52,22 +53,16 @@ class Record:
         ------
         KeyError : another metric
         """
-        formulas = {
+        formulas: dict[str, Callable[[Tally], npt.NDArray[np.float64]]] = {
             "xi_raw": lambda tally: fleet_fluctuation(tally, self.facts),
             "xi": lambda tally: fleet_fluctuation(tally, self.facts) / self.facts.mean_max_speed,
             "stationary": lambda tally: fleet_stationary(tally, self.facts),
         }
         formula = formulas[metric]
+        first = self.tallies[0]
         runs = np.array([formula(tally) for tally in self.tallies])
-        batches = np.array(
-            [
-                formula(Tally(*(part[b : b + 1] for part in self.tallies[0])))
-                for b in range(self.tallies[0].steps.size)
-            ]
-        )
-        return {
-            name: estimate(runs[:, f], batches[:, f]) for f, name in enumerate(self.facts.fleets)
-        }
+        batches = np.array([formula(batch_of(first, b)) for b in range(first.steps.size)])
+        return {name: estimate(runs[:, f], batches[:, f]) for f, name in enumerate(self.facts.fleets)}
 
     def summary(self) -> dict[str, Any]:
         """Everything in plain numbers, as `shoal run --json` prints it."""

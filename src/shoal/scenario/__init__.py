@@ -1,0 +1,1 @@
+"""Descriptions of runs, validated once, then frozen."""

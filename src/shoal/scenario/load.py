@@ -132,7 +132,7 @@ def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tup
         wrong = value.get("name") if isinstance(value, dict) else value
         near = difflib.get_close_matches(str(wrong), names, n=1)
         hint = f"did you mean {near[0]!r}? " if near else ""
-        return f"no strategy is called {wrong!r}", f"{hint}strategies: {', '.join(names)}; or file = \"my_strategy.py\""
+        return f"no strategy is called {wrong!r}", f'{hint}strategies: {", ".join(names)}; or file = "my_strategy.py"'
     if isinstance(value, (dict, list, tuple)):
         return f"{error['msg'].lower()}", "see `shoal scenario oceans2020` for a complete example"
     return f"{value!r}: {error['msg'].lower()}", "change the value"
@@ -140,9 +140,7 @@ def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tup
 
 def _path(loc: Sequence[Any]) -> tuple[Any, ...]:
     """A pydantic location without the tags it adds for the kind of a target."""
-    return tuple(
-        part for at, part in enumerate(loc) if not (at == 2 and loc[0] == "targets" and part in _TARGETS)
-    )
+    return tuple(part for at, part in enumerate(loc) if not (at == 2 and loc[0] == "targets" and part in _TARGETS))
 
 
 def _dotted(path: Sequence[Any]) -> str:
@@ -157,7 +155,8 @@ def _known_fields(path: tuple[Any, ...], table: Mapping[str, Any]) -> list[str]:
     if path[0] == "strategy":
         return ["file", *params_model(table["strategy"]["name"]).model_fields]
     if path[0] == "targets":
-        return list(_TARGETS[table["targets"][path[1]]["kind"]].model_fields)
+        chosen: Any = _TARGETS[table["targets"][path[1]]["kind"]]
+        return list(chosen.model_fields)
     return list(models[path[0]].model_fields) if path[0] in models else []
 
 

@@ -26,7 +26,9 @@ def load_strategies(choice: dict[str, Any]) -> dict[str, Any]:
     source = hashlib.sha256(text).hexdigest()[:16]
     if choice.get("source") not in (None, source):
         raise StrategyError(
-            str(path), "is not the file that this scenario was made with", "restore it, or drop `source` to use it anyway"
+            str(path),
+            "is not the file that this scenario was made with",
+            "restore it, or drop `source` to use it anyway",
         )
     names = _names_defined_by(path, source)
     name = choice.get("name") or (names[0] if len(names) == 1 else None)
@@ -66,7 +68,9 @@ def _execute(path: Path, module_name: str) -> None:
         raise
     except Exception as error:
         line = _line_in(error, path)
-        raise StrategyError(f"{path}:{line}" if line else str(path), f"{type(error).__name__}: {error}", "mend it") from error
+        raise StrategyError(
+            f"{path}:{line}" if line else str(path), f"{type(error).__name__}: {error}", "mend it"
+        ) from error
 
 
 def _line_in(error: BaseException, path: Path) -> int | None:

@@ -112,7 +112,9 @@ class TrackTarget(Frozen):
     max_speed: Annotated[MetersPerSecond, Positive] = Field(
         default=40.0, description="a faster jump between two fixes is a GPS error [m/s]"
     )
-    digest: str | None = Field(default=None, description="hash of the fixes used; Shoal fills it in, then insists on it")
+    digest: str | None = Field(
+        default=None, description="hash of the fixes used; Shoal fills it in, then insists on it"
+    )
 
 
 Target = Annotated[StillTarget | WaypointTarget | TrackTarget, Field(discriminator="kind")]
@@ -125,7 +127,9 @@ class Scenario(Frozen):
     description: str = Field(default="", description="one sentence")
     time_step: Annotated[Seconds, Positive] = Field(description="dt [s]")
     steps: PositiveInt = Field(description="time-steps of a run")
-    seed: NonNegativeInt = Field(default=1, lt=2**64, description="run r of two scenarios with one seed share their chance")
+    seed: NonNegativeInt = Field(
+        default=1, lt=2**64, description="run r of two scenarios with one seed share their chance"
+    )
     area: Area
     fleets: tuple[Fleet, ...] = Field(min_length=1, description="one or more makes of agents")
     network: Network
@@ -177,7 +181,9 @@ class Scenario(Frozen):
     def _waypoints_have_room(self) -> Self:
         for number, target in enumerate(self.targets):
             if isinstance(target, WaypointTarget) and 2 * target.margin >= min(self.area.width, self.area.height):
-                raise ValueError(f"targets.{number}.margin is {target.margin:g} m and leaves waypoints no room; lower it")
+                raise ValueError(
+                    f"targets.{number}.margin is {target.margin:g} m and leaves waypoints no room; lower it"
+                )
         return self
 
 

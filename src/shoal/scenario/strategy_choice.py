@@ -1,7 +1,8 @@
 """The [strategy] table of a scenario: a name and the parameters that this strategy has."""
 
+from collections.abc import Hashable
 from functools import cache
-from typing import Annotated, Any, Literal, get_type_hints
+from typing import Annotated, Any, Literal, cast, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, create_model
 from pydantic import ValidationError as PydanticError
@@ -39,7 +40,7 @@ class StrategyChoice:
         values = {}
         for field, value in self.params.items():
             words = _mark(hints[field], Choice)
-            values[field] = words.words.index(value) if words else type(owner.params._field_defaults[field])(value)  # type: ignore[attr-defined]
+            values[field] = words.words.index(value) if words else type(owner.params._field_defaults[field])(value)
         return owner.params(**values)
 
     def __eq__(self, other: object) -> bool:
@@ -103,10 +104,11 @@ def params_model(name: str) -> type[BaseModel]:
 
 
 @cache
-def _model_of(name: str, params: type[Any]) -> type[BaseModel]:
+def _model_of(name: str, key: Hashable) -> type[BaseModel]:
+    params = cast(Any, key)
     hints = get_type_hints(params, include_extras=True)
     fields: dict[str, Any] = {"name": (Literal[name], name)}
-    for field, default in params._field_defaults.items():  # type: ignore[attr-defined]
+    for field, default in params._field_defaults.items():
         choice, says = _mark(hints[field], Choice), _mark(hints[field], Says)
         description = says.sentence if says else ""
         if choice:
@@ -120,7 +122,7 @@ def _model_of(name: str, params: type[Any]) -> type[BaseModel]:
 
 
 def _params_model(owner: Strategy) -> type[BaseModel]:
-    return _model_of(owner.name, owner.params)
+    return _model_of(owner.name, cast(Hashable, owner.params))
 
 
 def _mark(hint: Any, kind: type[Any]) -> Any:

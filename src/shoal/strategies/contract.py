@@ -79,7 +79,9 @@ def strategy(
         where = f"strategy {name!r}"
         fields = getattr(params, "_fields", None)
         if fields is None:
-            raise StrategyError(where, f"params={params!r} is no NamedTuple class", "write class Params(NamedTuple): ...")
+            raise StrategyError(
+                where, f"params={params!r} is no NamedTuple class", "write class Params(NamedTuple): ..."
+            )
         bare = [field for field in fields if field not in params._field_defaults]
         if bare:
             raise StrategyError(where, f"parameter {bare[0]!r} has no default", f"write {bare[0]}: float = ...")
@@ -103,24 +105,24 @@ def strategy(
 
 
 @kernel
-def _keep_zeros(me, memory, params, draw):  # type: ignore[no-untyped-def]
+def _keep_zeros(me, memory, params, draw):
     """Start with an empty memory."""
 
 
 @kernel
-def _is_on_target(other, params):  # type: ignore[no-untyped-def]
+def _is_on_target(other, params):
     return other.on_target
 
 
 @kernel
-def _nearest_first(me, other, params):  # type: ignore[no-untyped-def]
+def _nearest_first(me, other, params):
     dx = me.x - other.x
     dy = me.y - other.y
     return dx * dx + dy * dy
 
 
 @kernel
-def _no_influence(me, other, params):  # type: ignore[no-untyped-def]
+def _no_influence(me, other, params):
     return 0.0, 0.0
 
 
@@ -159,38 +161,38 @@ def decide(me: Any, heard: Any, memory: Any, params: Any, draw: Any) -> Any:
 
 
 @overload(begin, inline="always")
-def _begin(me, memory, params, draw):  # type: ignore[no-untyped-def]
+def _begin(me, memory, params, draw):
     chosen = _owner(params.instance_class).begin
     return lambda me, memory, params, draw: chosen(me, memory, params, draw)
 
 
 @overload(leads, inline="always")
-def _leads(other, params):  # type: ignore[no-untyped-def]
+def _leads(other, params):
     chosen = _owner(params.instance_class).leads
     return lambda other, params: chosen(other, params)
 
 
 @overload(priority, inline="always")
-def _priority(me, other, params):  # type: ignore[no-untyped-def]
+def _priority(me, other, params):
     chosen = _owner(params.instance_class).priority
     return lambda me, other, params: chosen(me, other, params)
 
 
 @overload(influence, inline="always")
-def _influence(me, other, params):  # type: ignore[no-untyped-def]
+def _influence(me, other, params):
     chosen = _owner(params.instance_class).influence or _no_influence
     return lambda me, other, params: chosen(me, other, params)
 
 
 @overload(has_influence, inline="always")
-def _has_influence(params):  # type: ignore[no-untyped-def]
+def _has_influence(params):
     if _owner(params.instance_class).influence is None:
         return lambda params: False
     return lambda params: True
 
 
 @overload(decide, inline="always")
-def _decide(me, heard, memory, params, draw):  # type: ignore[no-untyped-def]
+def _decide(me, heard, memory, params, draw):
     chosen = _owner(params.instance_class).decide
     return lambda me, heard, memory, params, draw: chosen(me, heard, memory, params, draw)
 

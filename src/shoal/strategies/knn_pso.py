@@ -29,20 +29,20 @@ class KnnPso(NamedTuple):
     repulsion_step: Annotated[Meters, Says("way that a neighbor at distance a_R pushes in one step")] = 1.0
 
 
-def begin(me, memory, params, draw):  # type: ignore[no-untyped-def]
+def begin(me, memory, params, draw):
     """a_R at the start."""
     memory.repulsion = params.repulsion_start
 
 
-def priority(me, other, params):  # type: ignore[no-untyped-def]
+def priority(me, other, params):
     """Nbest: the nearest neighbor on target, or the one of lowest index."""
     dx = me.x - other.x
     dy = me.y - other.y
     nearest = dx * dx + dy * dy
-    return nearest if params.follow == 0 else float(other.index)
+    return nearest if params.follow == 0 else float(other.id)
 
 
-def influence(me, other, params):  # type: ignore[no-untyped-def]
+def influence(me, other, params):
     """One term of Eq. 4 without a_R^d, which `decide` multiplies: r_ij^-d (x_i - x_j) / r_ij  [m^-d].
 
     The softening keeps agents at the same place finite: they give no push, having no direction.
@@ -59,7 +59,7 @@ def influence(me, other, params):  # type: ignore[no-untyped-def]
     return push * dx, push * dy
 
 
-def decide(me, heard, memory, params, draw):  # type: ignore[no-untyped-def]
+def decide(me, heard, memory, params, draw):
     """k-nearest PSO with adaptive repulsion (Kwa et al., OCEANS 2020).
 
     v <- omega v + (c r (Nbest - x) + repulsion_step sum_j (a_R / r_ij)^d (x_i - x_j) / r_ij) / dt     Eqs. 2-4
@@ -83,7 +83,7 @@ def decide(me, heard, memory, params, draw):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def adapt_repulsion(me, heard, memory, params):  # type: ignore[no-untyped-def]
+def adapt_repulsion(me, heard, memory, params):
     """Algorithm 1 to the letter: test, then step, so a_R can end up to one delta outside its range."""
     if me.on_target or heard.found:
         if memory.repulsion > params.repulsion_min:

@@ -1,6 +1,6 @@
 """Snapshot: the arena at one moment, seen from above."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -8,8 +8,9 @@ from shoal.core.errors import RecordError
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.viz.arena import draw_arena, draw_scale_bar, in_kilometers
+from shoal.viz.legend import draw_legend, marker_area
 from shoal.viz.links import draw_links
-from shoal.viz.style import GRAY, INK, TARGET, fleet_color, fleet_marker
+from shoal.viz.style import INK, TARGET, fleet_color, fleet_marker
 from shoal.viz.trails import consecutive, draw_agent_trails, draw_target_trail, draw_whole_path
 from shoal.viz.words import count, time_text
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 REACH = 8.0  # arena units that the fastest buoy covers in the default trail
-COLUMNS = 3  # of the legend
+POINTS = 72.0  # to the inch
 _TRAILED = 1000  # more buoys than this draw no trails
 
 
@@ -56,8 +57,8 @@ def draw_snapshot(
     _draw_agents(axes, record, frames, last)
     if in_kilometers(scenario["area"]) or any(target["kind"] == "track" for target in scenario["targets"]):
         draw_scale_bar(axes)
-    rows = _draw_legend(axes, record)
-    axes.set_title(_moment(record, frames, run, last), pad=6.0 + 13.0 * rows)
+    height = draw_legend(axes, record)
+    axes.set_title(_moment(record, frames, run, last), pad=5.0 + POINTS * height)
 
 
 def _frames(record: Record, run: int) -> Trajectory:
@@ -98,38 +99,10 @@ def _draw_agents(axes: "Axes", record: Record, frames: Trajectory, last: int) ->
         on_target = np.asarray(frames.on_target[last, mine])
         axes.scatter(
             frames.x[last, mine], frames.y[last, mine], marker=fleet_marker(fleet), color=fleet_color(fleet),
-            s=_size(record, fleet) * np.where(on_target, 1.35, 1.0), linewidths=np.where(on_target, 1.3, 0.5),
+            s=marker_area(record, fleet) * np.where(on_target, 1.35, 1.0), linewidths=np.where(on_target, 1.3, 0.5),
             edgecolors=[INK if on else "white" for on in on_target], zorder=5, gid=f"fleet-{fleet}",
         )  # fmt: skip
         begin += number
-
-
-def _size(record: Record, fleet: int) -> float:
-    """Area of a marker [pt2]: shrinks with the swarm, grows with the fleet's top speed."""
-    facts = record.facts
-    base = float(np.clip(44.0 * (50.0 / facts.agents) ** 0.5, 9.0, 60.0))
-    return base * (0.55 + 0.45 * facts.max_speeds[fleet] / max(facts.max_speeds))
-
-
-def _draw_legend(axes: "Axes", record: Record) -> int:
-    """Name fleets, target and rim above the arena; return the rows taken."""
-    from matplotlib.lines import Line2D
-
-    facts = record.facts
-
-    def sign(label: str, marker: str, **look: Any) -> Line2D:
-        return Line2D([], [], linestyle="none", marker=marker, label=label, **look)
-
-    signs = [
-        sign(f"{name}, {speed:g} m/s", fleet_marker(f), color=fleet_color(f), markersize=max(4.0, _size(record, f) ** 0.5))
-        for f, (name, speed) in enumerate(zip(facts.fleets, facts.max_speeds, strict=True))
-    ]
-    signs.append(sign("on target", "o", markerfacecolor="white", markeredgecolor=INK, markeredgewidth=1.3, markersize=6))
-    signs.append(sign("target", "o", markerfacecolor=TARGET + "38", markeredgecolor=TARGET, markersize=8))
-    axes.legend(
-        handles=signs, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=COLUMNS, borderaxespad=0.2, borderpad=0.2
-    )
-    return -(-len(signs) // COLUMNS)
 
 
 def _moment(record: Record, frames: Trajectory, run: int, last: int) -> str:
@@ -138,5 +111,6 @@ def _moment(record: Record, frames: Trajectory, run: int, last: int) -> str:
     there = frames.target_present[last].any()
     state = f"{int(frames.on_target[last].sum())} on target" if there else "target absent"
     return f"{which} {count(step)} ({time_text(step * record.facts.time_step)}): {state}"
-    
+
+
 _ = GRAY

@@ -1,0 +1,1 @@
+"""What nobody on board controls, as kernels: neighbors, sensing, motion, targets, placement."""

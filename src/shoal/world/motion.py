@@ -6,7 +6,7 @@ from shoal.core.kernel import kernel
 
 
 @kernel
-def limit_speed(command_x, command_y, max_speed, divide):  # type: ignore[no-untyped-def]
+def limit_speed(command_x, command_y, max_speed, divide):
     """Scale velocities above an agent's top speed down to it, in place.
 
     With `divide`, do what Algorithm 2 of the paper prints instead: v <- v / vmax for every agent, which never limits a
@@ -21,7 +21,7 @@ def limit_speed(command_x, command_y, max_speed, divide):  # type: ignore[no-unt
 
 
 @kernel
-def move(position, velocity, command, clamp, time_step):  # type: ignore[no-untyped-def]
+def move(position, velocity, command, clamp, time_step):
     """Advance one axis by a time-step and stop at the wall, where the velocity becomes the displacement really made."""
     for i in range(position.size):
         here = position[i]

@@ -33,7 +33,7 @@ class Links(NamedTuple):
 
 
 @kernel
-def new_links(agents, lanes):  # type: ignore[no-untyped-def]
+def new_links(agents, lanes):
     """Return links of `agents` speakers to `lanes` listeners."""
     rows = agents + agents % 2
     square = aligned_zeros_kernel(rows * lanes).reshape((rows, lanes))
@@ -54,7 +54,7 @@ def new_links(agents, lanes):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def measure_distances(links, speaker_x, speaker_y, listener_x, listener_y, first, agents):  # type: ignore[no-untyped-def]
+def measure_distances(links, speaker_x, speaker_y, listener_x, listener_y, first, agents):
     """Fill `links.square`; listener lane i is agent first + i."""
     lanes = listener_x.size
     square = links.square
@@ -78,7 +78,7 @@ def measure_distances(links, speaker_x, speaker_y, listener_x, listener_y, first
 
 
 @kernel
-def link_nearest(links, neighbors, agents):  # type: ignore[no-untyped-def]
+def link_nearest(links, neighbors, agents):
     """Set `links.reach` so that every listener hears its k nearest; `neighbors` is k per lane.
 
     Where the k-th and the next are equally far, a listener may hear more or fewer until `settle_ties`.
@@ -105,7 +105,7 @@ def link_nearest(links, neighbors, agents):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def settle_ties(links, neighbors, agents):  # type: ignore[no-untyped-def]
+def settle_ties(links, neighbors, agents):
     """Mend the listeners whose `links.heard` is not k; return whether there were any."""
     mended = False
     for i in range(links.reach.size):
@@ -120,7 +120,7 @@ _FEW = 4  # a quarter of the lanes is cheaper to mend one by one
 
 
 @kernel
-def _count(links):  # type: ignore[no-untyped-def]
+def _count(links):
     """Count who is within reach, and find the farthest within and the nearest beyond. Two rows a turn: 15 % faster."""
     rows, lanes = links.square.shape
     square, reach, heard, below, above = links.square, links.reach, links.heard, links.below, links.above
@@ -154,7 +154,7 @@ def _count(links):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _step_once(links, neighbors):  # type: ignore[no-untyped-def]
+def _step_once(links, neighbors):
     """Step every reach over one speaker toward hearing k; return how many listeners need more than that.
 
     `off` is how many speakers were missing. No branches: who is how far off is chance, and a wrong prediction costs
@@ -181,7 +181,7 @@ def _step_once(links, neighbors):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _guess(links, neighbors, attempt):  # type: ignore[no-untyped-def]
+def _guess(links, neighbors, attempt):
     """Estimate the reach of listeners that are far off: counts grow like the square of the distance.
 
     A guess stays inside the bracket found so far, which is bisected after a few rounds.
@@ -198,7 +198,7 @@ def _guess(links, neighbors, attempt):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _walk(links, i, off):  # type: ignore[no-untyped-def]
+def _walk(links, i, off):
     """Step listener i's reach, stepped once already, over the rest of `off` speakers."""
     square = links.square
     reach = links.reach[i]
@@ -223,7 +223,7 @@ def _walk(links, i, off):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _settle_tie(links, i, k, agents):  # type: ignore[no-untyped-def]
+def _settle_tie(links, i, k, agents):
     """Rank listener i's speakers by (distance, index) and put those from rank k on out of reach. Slow and rare."""
     square = links.square
     for j in range(agents):

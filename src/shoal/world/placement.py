@@ -11,7 +11,7 @@ _CLUSTER = 0.1  # side of the cluster, as a share of the arena's
 
 
 @kernel
-def place(swarm, world, places, run_key):  # type: ignore[no-untyped-def]
+def place(swarm, world, places, run_key):
     """Scatter agents uniformly over the arena, or over a tenth of its sides at the center or in a corner.
 
     places : index into PLACES of each fleet

@@ -4,7 +4,7 @@ from shoal.core.kernel import kernel
 
 
 @kernel
-def sense(swarm, targets, agents):  # type: ignore[no-untyped-def]
+def sense(swarm, targets, agents):
     """Set on_target (f_i = -1 in the paper) of every agent within its sensor radius plus a target's radius.
 
     Kwa et al., Heterogeneous Swarms, Eq. 1. Returns how many agents are on target.

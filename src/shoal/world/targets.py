@@ -54,7 +54,7 @@ class Tracks(NamedTuple):
 
 
 @kernel
-def begin_target(target, tracks, draw):  # type: ignore[no-untyped-def]
+def begin_target(target, tracks, draw):
     """Put a target where it starts: uniform in its box, or where its track is at time 0."""
     if target.kind == _WAYPOINT:
         target.x = target.half_x * (2.0 * uniform(draw, 0) - 1.0)
@@ -70,7 +70,7 @@ def begin_target(target, tracks, draw):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def advance_target(target, tracks, time_step, steps_done, draw):  # type: ignore[no-untyped-def]
+def advance_target(target, tracks, time_step, steps_done, draw):
     """Move a target by one time-step; `steps_done` counts the steps completed with this one."""
     if target.kind == _WAYPOINT:
         _seek_waypoint(target, time_step, draw)
@@ -79,7 +79,7 @@ def advance_target(target, tracks, time_step, steps_done, draw):  # type: ignore
 
 
 @kernel
-def _seek_waypoint(target, time_step, draw):  # type: ignore[no-untyped-def]
+def _seek_waypoint(target, time_step, draw):
     """Turn toward the waypoint, at most so far per step, and go on; take a new one when near or tired of it."""
     dx = target.waypoint_x - target.x
     dy = target.waypoint_y - target.y
@@ -108,7 +108,7 @@ def _seek_waypoint(target, time_step, draw):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _take_waypoint(target, draw):  # type: ignore[no-untyped-def]
+def _take_waypoint(target, draw):
     """Choose a waypoint uniform in the target's box."""
     target.waypoint_x = target.half_x * (2.0 * uniform(draw, 0) - 1.0)
     target.waypoint_y = target.half_y * (2.0 * uniform(draw, 1) - 1.0)
@@ -116,7 +116,7 @@ def _take_waypoint(target, draw):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _follow_track(target, tracks, time):  # type: ignore[no-untyped-def]
+def _follow_track(target, tracks, time):
     """Interpolate between the two fixes around `time`; outside the track and in long gaps the target is not there."""
     first = target.first_fix
     last = first + target.fixes - 1

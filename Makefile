@@ -1,0 +1,45 @@
+# Two commands on a fresh machine with Python >= 3.11: `make demo` and `make test`.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+export PIP_DISABLE_PIP_VERSION_CHECK = 1
+
+.PHONY: demo test test-fast lint bench figures clean help
+
+help:
+	@echo "make demo      run the paper's scenario: table, figure and record in demo-output/"
+	@echo "make test      all tests, the slow ones too"
+	@echo "make test-fast without the slow ones"
+	@echo "make lint      ruff, mypy, import-linter"
+	@echo "make bench     speed of the engine beside its anchor and plain NumPy"
+	@echo "make clean     remove the environment and everything made"
+
+# The environment is remade when what it holds changes.
+$(VENV)/.installed: pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "Shoal needs Python 3.11 or newer: make PYTHON=python3.12 ..." >&2; exit 2; }
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	@touch $@
+
+demo: $(VENV)/.installed
+	@rm -rf demo-output && mkdir demo-output
+	$(BIN)/shoal run oceans2020 --out demo-output/record --figure demo-output/oceans2020.png
+	@echo; echo "figure: demo-output/oceans2020.png   record: shoal show demo-output/record"
+
+test: $(VENV)/.installed
+	$(BIN)/python -m pytest -n auto --dist loadfile
+
+test-fast: $(VENV)/.installed
+	$(BIN)/python -m pytest -n auto --dist loadfile -m 'not slow'
+
+lint: $(VENV)/.installed
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+bench: $(VENV)/.installed
+	$(BIN)/python benchmarks/bench_engine.py
+
+clean:
+	rm -rf $(VENV) demo-output .pytest_cache .mypy_cache .ruff_cache .import_linter_cache
