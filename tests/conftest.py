@@ -1,4 +1,4 @@
-"""Puts this folder on the path, for `import oracle` from any depth, and settles how hypothesis searches."""
+"""How hypothesis searches."""
 
 from hypothesis import HealthCheck, settings
 

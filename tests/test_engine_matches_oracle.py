@@ -38,7 +38,7 @@ SWITCHES = {
     "no social pull": {"strategy.social": 0.0},
     "exponent 4": {"strategy.repulsion_exponent": 4.0},
     "exponent 2.5": {"strategy.repulsion_exponent": 2.5},
-    "other steps of a_R": {"strategy.repulsion_up": 0.04, "strategy.repulsion_down": 0.17},
+    "other steps of a_R": {"strategy.delta": 0.04, "strategy.shrink": 4.25},
     "an oblong arena": {"area.width": 26.0, "area.height": 14.0},
     "target at 5 m/s": {"targets.0.speed": 5.0},
     "target at rest": {"targets.0.speed": 0.0},
@@ -144,9 +144,9 @@ class TestOneStepWithTies:
         self.assert_agrees(small(49, neighbors, {"motion.update_order": order}), grid)
 
     @pytest.mark.parametrize("order", ["synchronous", "sequential"])
-    @pytest.mark.parametrize("neighbors", [1, 5, 19, 29])
+    @pytest.mark.parametrize("neighbors", [1, 3, 6, 7])
     def test_all_at_one_place(self, order, neighbors):
-        seen = self.assert_agrees(small(30, neighbors, {"motion.update_order": order}), np.zeros((30, 2)))
+        seen = self.assert_agrees(small(8, neighbors, {"motion.update_order": order}), np.zeros((8, 2)))
         assert seen.on_target.all()
 
     @pytest.mark.parametrize("neighbors", [1, 5, 19, 28])
@@ -156,10 +156,8 @@ class TestOneStepWithTies:
 
     @pytest.mark.parametrize("follow", ["nearest", "lowest-index"])
     def test_two_leaders_equally_near(self, follow):
-        ring = [(2 * math.cos(angle), 2 * math.sin(angle)) for angle in (0.0, math.pi)]
-        x = [*ring, (0.0, 5.0), (0.0, 0.0)]
         chosen = small(4, 3, {"strategy.follow": follow, "targets.0.radius": 2.5})
-        seen = self.assert_agrees(chosen, [*x[:2], (0.0, 3.0), (0.0, -3.0)], target=(0.0, 0.0))
+        seen = self.assert_agrees(chosen, [(2.0, 0.0), (-2.0, 0.0), (0.0, 3.0), (0.0, -3.0)], target=(0.0, 0.0))
         assert seen.followed.tolist() == [0, 1, 0, 0]
 
 

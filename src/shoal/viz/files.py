@@ -1,9 +1,9 @@
 """A figure on disk: SVG, PNG or PDF, whole or not at all, the same bytes for the same figure."""
 
-import os
-import tempfile
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
+from uuid import uuid4
 
 from shoal.core.errors import RecordError, ShoalError
 from shoal.version import VERSION
@@ -31,19 +31,16 @@ def save_figure(figure: "Figure", path: str | Path) -> None:
     """
     file = Path(path)
     kind = figure_format(file)
+    partial = file.with_name(f".{file.name}.{uuid4().hex}.partial")
     try:
-        handle, partial = tempfile.mkstemp(dir=file.parent, prefix=f".{file.name}.", suffix=".partial")
-    except OSError as error:
-        raise _unwritable(file, error) from error
-    try:
-        with os.fdopen(handle, "wb") as stream, style():
+        with style(), partial.open("xb") as stream:
             figure.savefig(stream, format=kind, facecolor="white", metadata=_NO_DATES[kind])
-        Path(partial).chmod(0o666 & ~_umask())
-        Path(partial).replace(file)
+        partial.replace(file)
     except OSError as error:
         raise _unwritable(file, error) from error
     finally:
-        Path(partial).unlink(missing_ok=True)
+        with suppress(OSError):
+            partial.unlink(missing_ok=True)
 
 
 def figure_format(path: str | Path) -> str:
@@ -58,13 +55,6 @@ def figure_format(path: str | Path) -> str:
         problem = f"ends in .{kind}, which is no format of a figure" if kind else "does not say the format of the figure"
         raise ShoalError(str(path), problem, f"name a file that ends in .{', .'.join(FORMATS[:-1])} or .{FORMATS[-1]}")
     return kind
-
-
-def _umask() -> int:
-    """Permissions that new files do without; mkstemp's are for its owner alone."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def _unwritable(file: Path, error: OSError) -> RecordError:

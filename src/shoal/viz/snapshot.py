@@ -111,6 +111,3 @@ def _moment(record: Record, frames: Trajectory, run: int, last: int) -> str:
     there = frames.target_present[last].any()
     state = f"{int(frames.on_target[last].sum())} on target" if there else "target absent"
     return f"{which} {count(step)} ({time_text(step * record.facts.time_step)}): {state}"
-
-
-_ = GRAY

@@ -7,10 +7,10 @@ from shoal.record.record import Record
 from shoal.viz.arena import PAD
 from shoal.viz.curves import draw_batches
 from shoal.viz.histogram import draw_phi_histogram
-from shoal.viz.layout import lay_out
+from shoal.viz.layout import Boxes, lay_out, snapshot_size
 from shoal.viz.legend import legend_height
 from shoal.viz.snapshot import draw_snapshot
-from shoal.viz.style import new_figure, style
+from shoal.viz.style import GRAY, new_figure, style
 from shoal.viz.words import interval_text, metric_phrases, provenance_phrases, setup_phrases
 
 if TYPE_CHECKING:

@@ -1,0 +1,1 @@
+"""Many runs, safely: a design, a store that survives anything, and workers."""

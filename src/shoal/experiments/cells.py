@@ -1,0 +1,55 @@
+"""A cell: one scenario of a sweep, and its replicates, each with an id that its content decides."""
+
+import hashlib
+import json
+from dataclasses import dataclass
+
+from shoal.experiments.design import Design, Point
+from shoal.scenario.edit import apply
+from shoal.scenario.load import read_table, scenario_from
+from shoal.scenario.schema import Scenario
+from shoal.version import RESULTS_VERSION
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One scenario of a sweep and the point that made it."""
+
+    point: Point
+    scenario: Scenario
+
+    def run_id(self, run: int) -> str:
+        """24 hex digits over what shapes a run: the scenario, the seed, the replicate and the results version."""
+        content = f"{self.scenario.hash}/{self.scenario.seed}/{run}/{RESULTS_VERSION}"
+        return hashlib.sha256(content.encode()).hexdigest()[:24]
+
+
+def make_cells(design: Design, changes: Point, *, independent: bool = False) -> list[Cell]:
+    """Return the validated cells of a design, each once; `changes` go to all of them.
+
+    Run r of every cell shares its seed and with it the target's path and the starts, so that differences are paired;
+    `independent` gives every cell a seed of its own.
+
+    Raises
+    ------
+    ScenarioError : a point gives no scenario that can run (all points are checked before anything runs)
+    """
+    base = apply(read_table(design.scenario), changes)
+    cells: dict[str, Cell] = {}
+    for point in design.points:
+        told = ", ".join(f"{name}={value}" for name, value in point.items())
+        scenario = scenario_from(apply(base, point), where=f"{design.scenario} ({told})" if told else design.scenario)
+        if independent:
+            scenario = scenario.model_copy(update={"seed": _seed_of(scenario)})
+        cells.setdefault(f"{scenario.hash}/{scenario.seed}", Cell(dict(point), scenario))
+    return list(cells.values())
+
+
+def base_hash(design: Design, changes: Point) -> str:
+    """Hash of the scenario that a design starts from."""
+    return scenario_from(apply(read_table(design.scenario), changes)).hash
+
+
+def _seed_of(scenario: Scenario) -> int:
+    content = json.dumps([scenario.hash, scenario.seed])
+    return int.from_bytes(hashlib.sha256(content.encode()).digest()[:7], "big")

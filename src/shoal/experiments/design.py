@@ -1,0 +1,151 @@
+"""A design: which scenarios a sweep runs, as a list of changes to one base scenario."""
+
+import itertools
+import math
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from shoal.core.errors import MissingExtraError, ScenarioError
+from shoal.scenario.edit import parse_value
+from shoal.scenario.load import presets
+
+Point = dict[str, Any]  # {field: value}: shorthands (neighbors, fast, ...) and dotted paths, see scenario/edit.py
+
+
+@dataclass(frozen=True)
+class Design:
+    """A base scenario (preset or file), the points at which it is changed, and the replicates of each."""
+
+    scenario: str
+    points: tuple[Point, ...]
+    runs: int
+
+    @property
+    def fields(self) -> list[str]:
+        """Every field that varies, in order of first use."""
+        return list(dict.fromkeys(name for point in self.points for name in point))
+
+
+def grid(vary: Mapping[str, Sequence[Any]]) -> list[Point]:
+    """Return every combination of values; the first field varies slowest."""
+    return [dict(zip(vary, values, strict=True)) for values in itertools.product(*vary.values())]
+
+
+def together(vary: Mapping[str, Sequence[Any]]) -> list[Point]:
+    """Return the first values of all fields, then the second of all, and so on.
+
+    Raises
+    ------
+    ScenarioError : the fields do not have equally many values
+    """
+    counts = {name: len(values) for name, values in vary.items()}
+    if len(set(counts.values())) > 1:
+        told = ", ".join(f"{name} {count}" for name, count in counts.items())
+        raise ScenarioError("zip", f"fields have different numbers of values: {told}", "give each the same number")
+    return [dict(zip(vary, values, strict=True)) for values in zip(*vary.values(), strict=True)]
+
+
+def latin_hypercube(vary: Mapping[str, Sequence[Any]], samples: int, seed: int) -> list[Point]:
+    """Return `samples` points spread over the box of each field's first and last value (two whole numbers: whole ones).
+
+    McKay, Beckman, Conover, Technometrics 21 (1979), by scipy.stats.qmc.
+
+    Raises
+    ------
+    MissingExtraError : scipy is absent
+    """
+    try:
+        from scipy.stats import qmc
+    except ImportError:
+        raise MissingExtraError.of("scipy", "sweep", "a Latin hypercube design") from None
+    unit = qmc.LatinHypercube(d=len(vary), rng=seed).random(samples)
+    return [
+        {
+            name: _between(values[0], values[-1], float(share))
+            for (name, values), share in zip(vary.items(), row, strict=True)
+        }
+        for row in unit
+    ]
+
+
+def parse_vary(text: str) -> tuple[str, list[Any]]:
+    """Read "neighbors=10:49:3" (from, to, step; the end included) or "target-speed=3,5".
+
+    Raises
+    ------
+    ScenarioError : it is neither
+    """
+    name, equals, values = text.partition("=")
+    if not equals or not name.strip() or not values.strip():
+        raise ScenarioError(f"--vary {text}", "is no variation", "write field=1,2,3 or field=from:to:step")
+    return name.strip().replace("-", "_") if "." not in name else name.strip(), parse_values(values, f"--vary {text}")
+
+
+def parse_values(text: str, where: str) -> list[Any]:
+    """Read a list of values or a range."""
+    parts = text.split(":")
+    if 2 <= len(parts) <= 3 and all(isinstance(parse_value(part), (int, float)) for part in parts):
+        start, stop, step = (*map(parse_value, parts), 1)[:3]
+        if step <= 0 or stop < start:
+            raise ScenarioError(where, f"the range {text} is empty", "write from:to:step with from <= to and step > 0")
+        count = math.floor((stop - start) / step + 1e-9) + 1
+        return [start + number * step for number in range(count)]
+    return [parse_value(part.strip()) for part in text.split(",")]
+
+
+def is_design_file(source: str) -> bool:
+    """Whether a TOML file describes a sweep rather than a scenario."""
+    if source in presets() or not source.endswith(".toml") or not Path(source).is_file():
+        return False
+    table = _read(source)
+    return any(key in table for key in ("vary", "points"))
+
+
+def read_design(source: str) -> Design:
+    """Read a design file: scenario, runs, mode (grid, zip, latin-hypercube), [vary], [[points]], samples, seed.
+
+    Raises
+    ------
+    ScenarioError : unknown fields or values
+    """
+    table = _read(source)
+    unknown = set(table) - {"scenario", "runs", "mode", "vary", "points", "samples", "seed"}
+    if unknown:
+        known = "scenario, runs, mode, vary, points, samples, seed"
+        raise ScenarioError(f"{source} {sorted(unknown)[0]}", "unknown field", f"fields of a design: {known}")
+    if "scenario" not in table:
+        raise ScenarioError(f"{source} scenario", "is required and missing", 'add scenario = "oceans2020"')
+    vary = {
+        name: value if isinstance(value, list) else parse_values(str(value), f"{source} vary.{name}")
+        for name, value in table.get("vary", {}).items()
+    }
+    mode = table.get("mode", "grid")
+    if mode == "grid":
+        varied = grid(vary)
+    elif mode == "zip":
+        varied = together(vary)
+    elif mode == "latin-hypercube":
+        varied = latin_hypercube(vary, int(table.get("samples", 10)), int(table.get("seed", 1)))
+    else:
+        raise ScenarioError(f"{source} mode", f"is {mode!r}", "choose grid, zip or latin-hypercube")
+    points = [{**one, **other} for one in table.get("points", [{}]) for other in varied]
+    base = table["scenario"]
+    if base not in presets():
+        base = str(Path(source).resolve().parent / base)
+    return Design(base, tuple(points), int(table.get("runs", 5)))
+
+
+def _read(source: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(Path(source).read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise ScenarioError(source, f"cannot be read: {error}", "name a TOML file") from None
+
+
+def _between(low: Any, high: Any, share: float) -> Any:
+    if isinstance(low, int) and isinstance(high, int):
+        return min(high, low + int(share * (high - low + 1)))
+    return low + share * (high - low)

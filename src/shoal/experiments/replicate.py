@@ -1,0 +1,68 @@
+"""One replicate of one cell: a scenario and a run number in, one row of numbers out."""
+
+import threading
+import time
+from datetime import UTC, datetime
+from typing import Any
+
+from shoal.core.errors import ShoalError
+from shoal.metrics.summary import METRICS, fleet_fluctuation, fleet_stationary, phi_histogram
+from shoal.scenario.load import scenario_from
+from shoal.scenario.schema import Scenario
+from shoal.simulate import chunk_steps
+from shoal.simulation import Simulation, facts_of
+
+Row = dict[str, Any]
+LIST_COLUMNS = ("phi_histogram", "fleet_phi_histogram", "fleet_xi_raw", "fleet_stationary")
+
+
+class Stopped(Exception):  # noqa: N818  (an event, not an error)
+    """The sweep was asked to end before this run did."""
+
+
+def replicate(scenario: Scenario, run: int, stop: threading.Event | None = None) -> Row:
+    """Run one replicate and return its row: status, error, metrics, histograms, time.
+
+    A run that fails is a row with its error; only `stop` raises (Stopped).
+    """
+    begun, started = time.perf_counter(), _now()
+    try:
+        numbers = _numbers(scenario, run, stop)
+    except Stopped:
+        raise
+    except Exception as failure:  # whatever a user's strategy does, the night's work goes on
+        return failed_row(str(failure) if isinstance(failure, ShoalError) else repr(failure), started)
+    return {"status": "done", "error": "", **numbers, "started": started, "seconds": time.perf_counter() - begun}
+
+
+def failed_row(error: str, started: str = "") -> Row:
+    """The row of a run that gave no numbers."""
+    numbers = dict.fromkeys((*METRICS, *LIST_COLUMNS))
+    return {"status": "failed", "error": error, **numbers, "started": started or _now(), "seconds": 0.0}
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="milliseconds")
+
+
+def replicate_table(table: dict[str, Any], run: int) -> Row:
+    """`replicate` for a worker on another machine, which gets the scenario as plain data."""
+    return replicate(scenario_from(table), run)
+
+
+def _numbers(scenario: Scenario, run: int, stop: threading.Event | None) -> Row:
+    simulation = Simulation(scenario, run)
+    chunk = chunk_steps(scenario.agents)
+    while simulation.number < scenario.steps:
+        if stop is not None and stop.is_set():
+            raise Stopped
+        simulation.advance(min(chunk, scenario.steps - simulation.number))
+    tally, facts = simulation.tally, facts_of(scenario)
+    histogram = phi_histogram(tally)
+    return {
+        **{name: metric.formula(tally, facts) for name, metric in METRICS.items()},
+        "phi_histogram": histogram.sum(axis=0).tolist(),
+        "fleet_phi_histogram": histogram.tolist(),
+        "fleet_xi_raw": fleet_fluctuation(tally, facts).tolist(),
+        "fleet_stationary": fleet_stationary(tally, facts).tolist(),
+    }

@@ -1,0 +1,55 @@
+"""What passes between the parts of a reproduction: rows of runs, claims, and pictures."""
+
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+Row = dict[str, Any]
+Verdict = Literal["holds", "holds partly", "does not hold", "undecided"]
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One claim of a paper and what the numbers say of it.
+
+    `measured` is a sentence with the numbers; `value`, `low`, `high` are the key number and its 95 % interval [unit].
+    `figure` is the file name (without suffix) of the figure it is read from.
+    """
+
+    id: str
+    statement: str
+    measured: str
+    value: float
+    low: float
+    high: float
+    unit: str
+    verdict: Verdict
+    figure: str
+
+
+@dataclass
+class Figure:
+    """One figure: a file name without suffix, a caption that says what is seen, and the numbers plotted."""
+
+    name: str
+    title: str
+    caption: str
+    figure: Any  # matplotlib.figure.Figure
+    data: list[Row] = field(default_factory=list)
+
+
+@dataclass
+class Reproduction:
+    """All that a report needs. `main` has columns fast, neighbors, target_speed and sensitivity also variant."""
+
+    paper: str
+    quick: bool
+    steps: int
+    seeds: int
+    main: list[Row]
+    sensitivity: list[Row]
+    claims: list[Claim] = field(default_factory=list)
+    figures: list[Figure] = field(default_factory=list)
+    tables: dict[str, list[Row]] = field(default_factory=dict)  # printed in the report and written as CSV
+    command: str = ""
+    versions: dict[str, str] = field(default_factory=dict)
+    seconds: float = 0.0

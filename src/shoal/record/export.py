@@ -1,0 +1,351 @@
+"""A record as a labelled dataset, and as NetCDF or zarr for other programs: CF conventions, units on everything.
+
+Trajectories follow the discrete sampling geometry "trajectory" of CF-1.11, chapter 9: (trajectory, obs), where a
+trajectory is one agent of one run; targets have their own dimension. Written with longitude and latitude, each is a track that a target can follow.
+"""
+
+import json
+import shutil
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.core.errors import MissingExtraError, RecordError
+from shoal.metrics.heading_bearing import CENTERS
+from shoal.metrics.summary import METRICS, evaluate, fleet_fluctuation, fleet_stationary, phi_histogram
+from shoal.record.trajectory import Trajectory
+from shoal.strategies import CATALOGUE
+
+if TYPE_CHECKING:
+    import xarray
+
+    from shoal.record.record import Record
+
+Variable = tuple[tuple[str, ...], Any, dict[str, Any]]  # dimensions, values, attributes: as xarray takes them
+
+CONVENTIONS = "CF-1.11"
+EPOCH = "seconds since 1970-01-01 00:00:00"  # CF asks for a date; that of a simulation means nothing
+NOT_RECORDED = -1  # in the flags on_target and target_present
+COUNTS = ("agents", "unit/step")  # units of ours that UDUNITS does not know: pure numbers
+
+
+def to_xarray(record: "Record") -> "xarray.Dataset":
+    """Return metrics and trajectories of a record as one dataset.
+
+    Dimensions are run, fleet, phi_bin and batch (consecutive steps of a run); with trajectories also trajectory,
+    target and obs. Where recorded runs kept different steps, obs holds the steps of all, with gaps.
+
+    Raises
+    ------
+    MissingExtraError : xarray is not installed
+    """
+    labelled = _library("xarray")
+    variables = _metric_variables(record)
+    coordinates = _metric_coordinates(record)
+    if record.trajectories:
+        variables |= _trajectory_variables(record)
+        coordinates |= _trajectory_coordinates(record)
+    dataset: xarray.Dataset = labelled.Dataset(variables, coordinates, _global_attributes(record))
+    for name in {"phi_bin", "time"} & set(coordinates):
+        dataset[name].encoding["_FillValue"] = None  # never missing, and CF wants it said by silence
+    return dataset
+
+
+def to_netcdf(record: "Record", path: str | Path) -> None:
+    """Write a record to a new NetCDF-4 file, whole or not at all.
+
+    Raises
+    ------
+    MissingExtraError : xarray or netCDF4 is not installed
+    RecordError : the file exists or cannot be written
+    """
+    _library("netCDF4")
+    with _whole(Path(path)) as partial:
+        to_xarray(record).to_netcdf(partial, format="NETCDF4", engine="netcdf4")
+
+
+def to_zarr(record: "Record", path: str | Path) -> None:
+    """Write a record to a new zarr store (format 2, which every reader knows), whole or not at all.
+
+    Raises
+    ------
+    MissingExtraError : xarray or zarr is not installed
+    RecordError : the folder exists or cannot be written
+    """
+    _library("zarr")
+    with _whole(Path(path)) as partial:
+        to_xarray(record).to_zarr(partial, mode="w-", zarr_format=2, consolidated=True)
+
+
+def _library(name: str) -> Any:
+    try:
+        return import_module(name)
+    except ImportError as error:
+        raise MissingExtraError.of(name, "xarray", "labelled arrays and NetCDF/zarr export") from error
+
+
+# --- metrics ---
+
+
+def _metric_variables(record: "Record") -> dict[str, Variable]:
+    tallies, facts = record.tallies, record.facts
+    values = {name: [evaluate(name, tally, facts) for tally in tallies] for name in METRICS}
+    variables: dict[str, Variable] = {
+        name: (("run",), [whole for whole, _ in values[name]], _says(metric.unit, metric.sentence))
+        for name, metric in METRICS.items()
+    }
+    variables["time_on_target_batch"] = (
+        ("run", "batch"),
+        [batches for _, batches in values["time_on_target"]],
+        _says("1", f"{METRICS['time_on_target'].sentence}, in each batch of consecutive steps"),
+    )
+    variables["phi_histogram"] = (
+        ("run", "fleet", "phi_bin"),
+        [phi_histogram(tally) for tally in tallies],
+        _says("1", "mean number of agents per step in each bin of phi (Eq. 8); bins and fleets sum to N"),
+    )
+    variables["fleet_xi_raw"] = (
+        ("run", "fleet"),
+        [fleet_fluctuation(tally, facts) for tally in tallies],
+        _says("m/s", "velocity fluctuation of a fleet around the mean velocity of the swarm"),
+    )
+    variables["fleet_stationary"] = (
+        ("run", "fleet"),
+        [fleet_stationary(tally, facts) for tally in tallies],
+        _says("1", METRICS["stationary"].sentence),
+    )
+    variables["fleet_count"] = (("fleet",), np.array(facts.counts), _says("1", "number of agents of a fleet"))
+    variables["fleet_max_speed"] = (("fleet",), list(facts.max_speeds), _says("m/s", "top speed of a fleet's agents"))
+    return variables
+
+
+def _metric_coordinates(record: "Record") -> dict[str, Variable]:
+    return {
+        "run": (("run",), np.arange(len(record.tallies)), {"long_name": "number of the run"}),
+        "fleet": (("fleet",), list(record.facts.fleets), {"long_name": "name of the fleet"}),
+        "phi_bin": (("phi_bin",), CENTERS, _says("1", "center of the bin of phi, cos(heading - bearing to target)")),
+        "batch": (
+            ("batch",),
+            np.arange(record.tallies[0].steps.size),
+            {"long_name": "number of the batch of consecutive steps"},
+        ),
+    }
+
+
+def _says(unit: str, sentence: str) -> dict[str, Any]:
+    return {"units": "1" if unit in COUNTS else unit, "long_name": sentence}
+
+
+# --- trajectories ---
+
+
+def _trajectory_variables(record: "Record") -> dict[str, Variable]:
+    stack = _Stack(record.trajectories)
+    over, targets_over = ("trajectory", "obs"), ("target", "obs")
+    origin = _origin(record)
+    on_map = {"grid_mapping": "crs"} if origin else {}
+    variables: dict[str, Variable] = {
+        "x": (over, stack.floats("x"), on_map | _axis("x", "agent")),
+        "y": (over, stack.floats("y"), on_map | _axis("y", "agent")),
+        "vx": (over, stack.floats("vx"), on_map | _says("m/s", "velocity of the agent along x")),
+        "vy": (over, stack.floats("vy"), on_map | _says("m/s", "velocity of the agent along y")),
+        "on_target": (over, stack.flags("on_target"), on_map | _flag("off_target on_target", "agent is on a target")),
+        "target_x": (targets_over, stack.floats("target_x"), on_map | _axis("x", "target")),
+        "target_y": (targets_over, stack.floats("target_y"), on_map | _axis("y", "target")),
+        "target_present": (
+            targets_over,
+            stack.flags("target_present"),
+            on_map | _flag("absent present", "target is there"),
+        ),
+    }
+    units = _memory_units(record)
+    for field in stack.first.memory:
+        unit = {"units": units[field]} if units.get(field) else {}
+        says = {"long_name": f"{field}, remembered by the agent"}
+        variables[f"memory_{field}"] = (over, stack.floats(field, lambda frames: frames.memory), on_map | unit | says)
+    return variables | ({"crs": _grid_mapping(*origin)} if origin else {})
+
+
+def _trajectory_coordinates(record: "Record") -> dict[str, Variable]:
+    stack, facts = _Stack(record.trajectories), record.facts
+    runs = np.array(list(record.trajectories))
+    fleets = np.repeat(facts.fleets, facts.counts)
+    agents = _instances("trajectory", runs, "agent", facts.agents)
+    agents["trajectory_fleet"] = (("trajectory",), np.tile(fleets, runs.size), {"long_name": "fleet of the agent"})
+    agents["trajectory_id"][2]["cf_role"] = "trajectory_id"
+    targets = _instances("target", runs, "target", stack.first.target_x.shape[1])
+    time = {
+        "standard_name": "time",
+        "units": EPOCH,
+        "calendar": "standard",
+        "axis": "T",
+        "long_name": "simulated time since the start of the run",
+        "comment": "the date is nominal",
+    }
+    return {
+        "time": (("obs",), stack.steps * facts.time_step, time),
+        "step": (("obs",), stack.steps, _says("1", "number of the time-step, of which this is the start")),
+        **agents,
+        **targets,
+        **_geographic(record, stack),
+    }
+
+
+class _Stack:
+    """Trajectories of several runs behind each other, (runs x instances, obs), on the steps of all."""
+
+    def __init__(self, trajectories: dict[int, Trajectory]) -> None:
+        self._runs = list(trajectories.values())
+        self.first = self._runs[0]
+        self.steps = np.unique(np.concatenate([frames.step for frames in self._runs]))
+
+    def floats(self, name: str, of: Callable[[Trajectory], dict[str, Any]] = vars) -> npt.NDArray[np.float64]:
+        """Values of an array of the trajectories, NaN where a run kept no frame."""
+        return self._stacked([of(frames)[name] for frames in self._runs], np.float64, np.nan)
+
+    def flags(self, name: str) -> npt.NDArray[np.int8]:
+        """The same of an array of truths, as 0, 1 or NOT_RECORDED."""
+        return self._stacked([getattr(frames, name) for frames in self._runs], np.int8, NOT_RECORDED)
+
+    def _stacked(self, values: Sequence[npt.NDArray[Any]], kind: type, missing: float) -> npt.NDArray[Any]:
+        instances = values[0].shape[1]
+        stacked = np.full((len(values) * instances, self.steps.size), missing, kind)
+        for at, (frames, part) in enumerate(zip(self._runs, values, strict=True)):
+            stacked[at * instances : (at + 1) * instances, np.searchsorted(self.steps, frames.step)] = part.T
+        return stacked
+
+
+def _axis(letter: str, who: str) -> dict[str, Any]:
+    direction = {"x": "east", "y": "north"}[letter]
+    return {
+        "standard_name": f"projection_{letter}_coordinate",
+        **_says("m", f"position of the {who}, {direction} of the center of the arena"),
+    }
+
+
+def _flag(meanings: str, sentence: str) -> dict[str, Any]:
+    return {
+        "long_name": sentence,
+        "flag_values": np.array([NOT_RECORDED, 0, 1], np.int8),
+        "flag_meanings": f"not_recorded {meanings}",
+    }
+
+
+def _instances(dimension: str, runs: npt.NDArray[Any], who: str, count: int) -> dict[str, Variable]:
+    """Identifier, run and number of each agent or target, runs one after the other."""
+    return {
+        f"{dimension}_id": (
+            (dimension,),
+            [f"run-{run}/{who}-{i}" for run in runs for i in range(count)],
+            {"long_name": f"which {who} of which run"},
+        ),
+        f"{dimension}_run": ((dimension,), np.repeat(runs, count), {"long_name": "number of the run"}),
+        f"{dimension}_number": (
+            (dimension,),
+            np.tile(np.arange(count), runs.size),
+            {"long_name": f"number of the {who} in its run"},
+        ),
+    }
+
+
+def _memory_units(record: "Record") -> dict[str, str]:
+    """Unit of each memory field; none are known where a user's strategy has not been loaded in this process."""
+    known = CATALOGUE.get(record.scenario["strategy"]["name"])
+    return known.memory if known else {}
+
+
+# --- the place on Earth ---
+
+
+def _origin(record: "Record") -> tuple[float, float] | None:
+    """(lon, lat) [deg] of (0, 0), if the scenario has one."""
+    origin = record.scenario["area"].get("origin")
+    return (float(origin[0]), float(origin[1])) if origin else None
+
+
+def _grid_mapping(lon: float, lat: float) -> Variable:
+    """The projection of recorded tracks, see scenario.tracks."""
+    attributes = {
+        "grid_mapping_name": "azimuthal_equidistant",
+        "longitude_of_projection_origin": lon,
+        "latitude_of_projection_origin": lat,
+        "false_easting": 0.0,
+        "false_northing": 0.0,
+        "semi_major_axis": 6378137.0,
+        "inverse_flattening": 298.257223563,
+        "long_name": "local meters around the center of the arena (WGS 84)",
+    }
+    return ((), np.int32(0), attributes)
+
+
+def _geographic(record: "Record", stack: _Stack) -> dict[str, Variable]:
+    """Longitude and latitude of agents and targets; nothing without an origin or without pyproj."""
+    origin = _origin(record)
+    if origin is None:
+        return {}
+    try:
+        import pyproj
+    except ImportError:
+        return {}
+    local = pyproj.Proj(proj="aeqd", ellps="WGS84", lon_0=origin[0], lat_0=origin[1])
+    variables: dict[str, Variable] = {}
+    for dimension, prefix, who in (("trajectory", "", "agent"), ("target", "target_", "target")):
+        lon, lat = local(stack.floats(f"{prefix}x"), stack.floats(f"{prefix}y"), inverse=True)
+        for name, long_name, unit, values in (
+            ("lon", "longitude", "degrees_east", lon),
+            ("lat", "latitude", "degrees_north", lat),
+        ):
+            attributes = {"standard_name": long_name, "units": unit, "long_name": f"{long_name} of the {who}"}
+            gaps = np.where(np.isfinite(values), values, np.nan)  # PROJ answers NaN with infinity
+            variables[prefix + name] = ((dimension, "obs"), gaps, attributes)
+    return variables
+
+
+# --- files ---
+
+
+def _global_attributes(record: "Record") -> dict[str, Any]:
+    about = record.provenance
+    return {
+        "Conventions": CONVENTIONS,
+        **({"featureType": "trajectory"} if record.trajectories else {}),
+        "title": record.scenario["name"],
+        "summary": record.scenario["description"],
+        "source": f"Shoal {about['versions']['shoal']}, simulation of a swarm",
+        "history": f"{about['started']} simulated by Shoal {about['versions']['shoal']}",
+        "scenario_hash": about["scenario_hash"],
+        "provenance": json.dumps(about),
+        "scenario": json.dumps(record.scenario),
+    }
+
+
+@contextmanager
+def _whole(path: Path) -> Iterator[Path]:
+    """A place beside `path` to write to, which takes its name once everything is written."""
+    if path.exists():
+        raise RecordError(str(path), "exists already", "name another one, or remove this one first")
+    if not path.parent.is_dir():
+        raise RecordError(str(path), f"there is no folder {path.parent}", "make the folder first")
+    partial = path.with_name(path.name + ".partial")
+    try:
+        _remove(partial)
+        yield partial
+        partial.rename(path)
+    except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError on a full disk
+        reason = getattr(error, "strerror", None) or error
+        raise RecordError(
+            str(path), f"cannot be written: {reason}", "free space, or name a place you may write"
+        ) from error
+    finally:
+        _remove(partial)
+
+
+def _remove(partial: Path) -> None:
+    shutil.rmtree(partial, ignore_errors=True)
+    with suppress(OSError):
+        partial.unlink(missing_ok=True)
