@@ -102,7 +102,9 @@ class TestOneStep:
     @pytest.mark.parametrize("name", SWITCHES)
     @pytest.mark.parametrize("preset", PRESETS[:2])
     def test_with_each_switch_flipped(self, preset, name):
-        assert_steps_agree(flipped(preset, name), STATES_OF_A_VARIANT)
+        """Without a cap, pushes of 1000 m and more leave a remainder of some meters, and with it their rounding."""
+        tolerance = 1e-11 if name == "speed divided" else 1e-12
+        assert_steps_agree(flipped(preset, name), STATES_OF_A_VARIANT, tolerance)
 
     @pytest.mark.parametrize(("agents", "neighbors"), SIZES)
     def test_of_swarms_of_any_size_with_any_number_of_neighbors(self, agents, neighbors):

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from shoal.core.errors import ShoalError
     from shoal.core.kernel import kernel
     from shoal.core.units import Degrees, Meters, MetersPerSecond, Seconds
+    from shoal.experiments.results import load_results
     from shoal.record.files import open_record, save_record
     from shoal.record.record import Record
     from shoal.scenario.load import load, presets, to_toml
@@ -28,6 +29,7 @@ _HOMES = {
     "shoal.core.errors": ("ShoalError",),
     "shoal.core.kernel": ("kernel",),
     "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Seconds"),
+    "shoal.experiments.results": ("load_results",),
     "shoal.record.files": ("open_record", "save_record"),
     "shoal.record.record": ("Record",),
     "shoal.scenario.load": ("load", "presets", "to_toml"),
@@ -50,6 +52,7 @@ __all__ = [
     "__version__",
     "kernel",
     "load",
+    "load_results",
     "normal",
     "open_record",
     "presets",

@@ -88,9 +88,9 @@ def run(
     if track_id and not target_track:
         raise ScenarioError("--track-id", "needs --target-track", "name the file that holds the track")
     if figure:
-        from shoal.viz.files import check_figure_path
+        from shoal.viz.files import figure_format
 
-        check_figure_path(figure)
+        figure_format(figure)  # refused before the run, not after
     table = edited_table(scenario, changes, assignments or [], target_track, track_id)
     chosen = scenario_from(table, where=scenario)
     if needs_compiling(chosen):

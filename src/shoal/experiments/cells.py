@@ -45,9 +45,9 @@ def make_cells(design: Design, changes: Point, *, independent: bool = False) -> 
     return list(cells.values())
 
 
-def base_hash(design: Design, changes: Point) -> str:
-    """Hash of the scenario that a design starts from."""
-    return scenario_from(apply(read_table(design.scenario), changes)).hash
+def base_table(design: Design, changes: Point) -> Point:
+    """The scenario that a design starts from, in full."""
+    return scenario_from(apply(read_table(design.scenario), changes)).model_dump(mode="json", exclude={"description"})
 
 
 def _seed_of(scenario: Scenario) -> int:

@@ -53,18 +53,20 @@ def on_dask(scheduler: str | None = None, workers: int | None = None) -> Executo
     ScenarioError : no scheduler answers
     """
     try:
-        from distributed import Client, LocalCluster, as_completed
+        import distributed
     except ImportError:
         raise MissingExtraError.of("distributed", "cluster", "running on Dask") from None
+
+    dask: Any = distributed  # untyped
 
     def execute(tasks: Iterable[Task]) -> Iterator[Done]:
         cluster: Any = None
         if scheduler is None:
-            cluster = LocalCluster(
+            cluster = dask.LocalCluster(
                 n_workers=workers or os.cpu_count() or 1, threads_per_worker=1, dashboard_address=None
             )
         try:
-            client = Client(cluster or scheduler, timeout="10s")
+            client = dask.Client(cluster or scheduler, timeout="10s")
         except (OSError, TimeoutError) as error:
             raise ScenarioError(
                 "--scheduler", f"{scheduler} does not answer: {error}", "start dask scheduler"
@@ -72,7 +74,7 @@ def on_dask(scheduler: str | None = None, workers: int | None = None) -> Executo
         try:
             with client:
                 submitted = {_submit(client, cell, run): (cell, run) for cell, run in tasks}
-                for future in as_completed(submitted):
+                for future in dask.as_completed(submitted):
                     yield (*submitted[future], _result(future))
         finally:
             if cluster is not None:

@@ -168,15 +168,27 @@ class Store:
         """Remember what this sweep runs, or refuse to mix it with what another one ran."""
         wanted = {name: json.dumps((self._identity or {})[name]) for name in _IDENTITY}
         known = self.meta()
-        for name, value in known.items():
-            if value != wanted.get(name, value):
-                raise RecordError(
-                    str(self.folder),
-                    f"was made with another {name.replace('_', ' ')}: {value}, now {wanted[name]}",
-                    "use another folder, or the same command as before",
-                )
+        differences = [
+            difference
+            for name, value in known.items()
+            for difference in _differences(name, json.loads(value), json.loads(wanted[name]))
+        ]
+        if differences:
+            raise RecordError(
+                str(self.folder),
+                f"was made by another sweep: {'; '.join(differences)}",
+                "use another folder, or the same command as before",
+            )
         for name, value in wanted.items():
             self._database.execute("INSERT OR IGNORE INTO meta VALUES (?, ?)", (name, value))
+
+
+def _differences(path: str, then: Any, now: Any) -> list[str]:
+    """Every field that two identities do not share, as "path: value then, value now"."""
+    if isinstance(then, dict) and isinstance(now, dict):
+        names = dict.fromkeys([*then, *now])
+        return [each for name in names for each in _differences(f"{path}.{name}", then.get(name), now.get(name))]
+    return [] if then == now else [f"{path}: {json.dumps(then)} then, {json.dumps(now)} now"]
 
 
 def _sortable(value: Any) -> tuple[int, Any]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from shoal.experiments.cells import Cell, base_hash, make_cells
+from shoal.experiments.cells import Cell, base_table, make_cells
 from shoal.experiments.design import Design, Point
 from shoal.experiments.executors import Done, Executor, Task, in_threads
 from shoal.experiments.replicate import Row, replicate
@@ -80,7 +80,7 @@ def sweep(
     changes = changes or {}
     cells = make_cells(design, changes, independent=independent)
     identity = {
-        "scenario": base_hash(design, changes),
+        "scenario": base_table(design, changes),
         "fields": design.fields,
         "changes": changes,
         "independent": independent,

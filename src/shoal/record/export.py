@@ -1,7 +1,8 @@
 """A record as a labelled dataset, and as NetCDF or zarr for other programs: CF conventions, units on everything.
 
 Trajectories follow the discrete sampling geometry "trajectory" of CF-1.11, chapter 9: (trajectory, obs), where a
-trajectory is one agent of one run; targets have their own dimension. Written with longitude and latitude, each is a track that a target can follow.
+trajectory is one agent of one run; targets have a dimension of their own. Written with longitude and latitude, each
+trajectory is a track that a target can follow.
 """
 
 import json
@@ -30,7 +31,7 @@ Variable = tuple[tuple[str, ...], Any, dict[str, Any]]  # dimensions, values, at
 
 CONVENTIONS = "CF-1.11"
 EPOCH = "seconds since 1970-01-01 00:00:00"  # CF asks for a date; that of a simulation means nothing
-NOT_RECORDED = -1  # in the flags on_target and target_present
+NOT_RECORDED = -1  # in the flags on_target and target_is_present
 COUNTS = ("agents", "unit/step")  # units of ours that UDUNITS does not know: pure numbers
 
 
@@ -150,14 +151,14 @@ def _trajectory_variables(record: "Record") -> dict[str, Variable]:
     origin = _origin(record)
     on_map = {"grid_mapping": "crs"} if origin else {}
     variables: dict[str, Variable] = {
-        "x": (over, stack.floats("x"), on_map | _axis("x", "agent")),
-        "y": (over, stack.floats("y"), on_map | _axis("y", "agent")),
+        "x": (over, stack.floats("x"), on_map | _position("x", "agent") | _axis("x")),
+        "y": (over, stack.floats("y"), on_map | _position("y", "agent") | _axis("y")),
         "vx": (over, stack.floats("vx"), on_map | _says("m/s", "velocity of the agent along x")),
         "vy": (over, stack.floats("vy"), on_map | _says("m/s", "velocity of the agent along y")),
         "on_target": (over, stack.flags("on_target"), on_map | _flag("off_target on_target", "agent is on a target")),
-        "target_x": (targets_over, stack.floats("target_x"), on_map | _axis("x", "target")),
-        "target_y": (targets_over, stack.floats("target_y"), on_map | _axis("y", "target")),
-        "target_present": (
+        "target_x": (targets_over, stack.floats("target_x"), on_map | _position("x", "target")),
+        "target_y": (targets_over, stack.floats("target_y"), on_map | _position("y", "target")),
+        "target_is_present": (  # target_present is a metric
             targets_over,
             stack.flags("target_present"),
             on_map | _flag("absent present", "target is there"),
@@ -183,6 +184,7 @@ def _trajectory_coordinates(record: "Record") -> dict[str, Variable]:
         "standard_name": "time",
         "units": EPOCH,
         "calendar": "standard",
+        "units_metadata": "leap_seconds: none",
         "axis": "T",
         "long_name": "simulated time since the start of the run",
         "comment": "the date is nominal",
@@ -220,12 +222,14 @@ class _Stack:
         return stacked
 
 
-def _axis(letter: str, who: str) -> dict[str, Any]:
+def _position(letter: str, who: str) -> dict[str, Any]:
     direction = {"x": "east", "y": "north"}[letter]
-    return {
-        "standard_name": f"projection_{letter}_coordinate",
-        **_says("m", f"position of the {who}, {direction} of the center of the arena"),
-    }
+    return _says("m", f"position of the {who}, {direction} of the center of the arena")
+
+
+def _axis(letter: str) -> dict[str, Any]:
+    """For agents only: a grid mapping has exactly one pair of these."""
+    return {"standard_name": f"projection_{letter}_coordinate"}
 
 
 def _flag(meanings: str, sentence: str) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 PAGE = 10.0  # width
-LEFT, RIGHT = 0.7, 0.25  # room for a y label; page margin
+LEFT, RIGHT = 0.7, 0.4  # room for a y label; page margin
 TITLE = 0.33  # above an axes
 BELOW_CURVES, BELOW_HISTOGRAM, BELOW_SNAPSHOT = 0.55, 0.85, 0.6  # room for ticks and x label
 GUTTER = 0.85  # between columns, y label of the right one included

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 ROW = 0.18  # [inch] height of a row
-_LETTER, _SIGN = 0.064, 0.5  # [inch] width of a letter; of a sign and the space around it
+_LETTER, _SIGN = 0.056, 0.36  # [inch] width of a letter; of a sign and the space around it
 _LONGEST = 26  # letters of a name
 
 

@@ -58,7 +58,7 @@ def draw_snapshot(
     if in_kilometers(scenario["area"]) or any(target["kind"] == "track" for target in scenario["targets"]):
         draw_scale_bar(axes)
     height = draw_legend(axes, record)
-    axes.set_title(_moment(record, frames, run, last), pad=5.0 + POINTS * height)
+    axes.set_title(_moment(record, frames, run, last), pad=7.0 + POINTS * height)
 
 
 def _frames(record: Record, run: int) -> Trajectory:
@@ -99,7 +99,7 @@ def _draw_agents(axes: "Axes", record: Record, frames: Trajectory, last: int) ->
         on_target = np.asarray(frames.on_target[last, mine])
         axes.scatter(
             frames.x[last, mine], frames.y[last, mine], marker=fleet_marker(fleet), color=fleet_color(fleet),
-            s=marker_area(record, fleet) * np.where(on_target, 1.35, 1.0), linewidths=np.where(on_target, 1.3, 0.5),
+            s=marker_area(record, fleet) * np.where(on_target, 1.35, 1.0), linewidths=np.where(on_target, 0.2, 0.08) * marker_area(record, fleet) ** 0.5,
             edgecolors=[INK if on else "white" for on in on_target], zorder=5, gid=f"fleet-{fleet}",
         )  # fmt: skip
         begin += number

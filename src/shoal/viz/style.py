@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 INK = "#222222"
 GRAY = "#6b6b6b"
 GRID = "#e4e4e4"
-TARGET = "#D55E00"  # vermilion, for targets and time on them alone
-FLEET_COLORS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#F0E442", "#000000")
+TARGET = "#D55E00"  # vermilion, for targets and time on them alone; its neighbor orange comes late among the fleets
+FLEET_COLORS = ("#0072B2", "#56B4E9", "#009E73", "#CC79A7", "#F0E442", "#E69F00", "#000000")
 FLEET_MARKERS = ("o", "^", "s", "D", "v", "P", "X", "h")
 
 RC: dict[str, Any] = {

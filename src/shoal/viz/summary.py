@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _LINE = 0.19  # [inch] of small text
 _MARGIN = 0.25  # [inch] from the page's edge to text
-_LETTERS = 125  # of a line across the page
+_LETTERS = 145  # of a line across the page
 
 
 def summary_figure(record: Record) -> "Figure":

@@ -65,7 +65,7 @@ def targets_text(targets: list[dict[str, Any]]) -> str:
     """How many targets and how fast: target 3 m/s; 2 targets (still, 3 m/s)."""
     how = [_speed_text(target) for target in targets]
     if len(how) == 1:
-        return f"target {how[0]}"
+        return how[0].replace("recorded", "recorded target") if how[0].startswith("recorded") else f"target {how[0]}"
     return f"{len(how)} targets ({', '.join(how)})"
 
 

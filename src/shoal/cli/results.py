@@ -1,0 +1,129 @@
+"""shoal results, shoal plot: what a sweep found."""
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from shoal.cli.progress import note
+
+
+def results(
+    folder: Path,
+    /,
+    *,
+    by: str | None = None,
+    csv: Annotated[bool, Parameter(negative=())] = False,
+    json_: Annotated[bool, Parameter(name="--json", negative=())] = False,
+    parquet: Path | None = None,
+) -> None:
+    """Print means and 95 % intervals of a sweep, over the runs of each group.
+
+    Parameters
+    ----------
+    folder
+        The sweep's --out.
+    by
+        Fields to group by, such as neighbors,fast; default all that vary. Fields left out are pooled: their
+        differences then widen the interval.
+    csv
+        Print every run as CSV instead.
+    json_
+        Print every run as one JSON list instead.
+    parquet
+        Write every run to this parquet file instead.
+    """
+    from shoal.experiments.results import aggregate, read_rows, to_csv, write_parquet
+
+    fields, rows = read_rows(folder)
+    if parquet:
+        write_parquet(rows, parquet)
+        note(f"{len(rows)} runs: {parquet}")
+    elif csv and by is None:
+        sys.stdout.write(to_csv(rows))
+    elif json_ and by is None:
+        sys.stdout.write(json.dumps(rows) + "\n")
+    else:
+        groups = aggregate(rows, by.split(",") if by else fields)
+        if csv:
+            sys.stdout.write(to_csv(groups))
+        elif json_:
+            sys.stdout.write(json.dumps(groups) + "\n")
+        else:
+            _print_groups(groups, by.split(",") if by else fields)
+
+
+def plot(
+    folder: Path, /, *, x: str | None = None, y: str = "time_on_target", hue: str | None = None, out: Path | None = None
+) -> None:
+    """Draw one metric of a sweep against a field, with bands of the 95 % interval.
+
+    Parameters
+    ----------
+    folder
+        The sweep's --out.
+    x
+        Field on the horizontal axis; default the numeric one with most values.
+    y
+        Metric on the vertical axis.
+    hue
+        Field that makes one curve per value; default the next field that varies.
+    out
+        Picture to draw (.png, .svg or .pdf); default plot.png in the folder.
+    """
+    from shoal.core.errors import ScenarioError
+    from shoal.experiments.results import aggregate, read_rows
+    from shoal.metrics.summary import METRICS
+    from shoal.viz.files import save_figure
+    from shoal.viz.sweep import Curve, sweep_figure
+
+    fields, rows = read_rows(folder)
+    if y not in METRICS:
+        raise ScenarioError(f"--y {y}", "is no metric", f"there are: {', '.join(METRICS)}")
+    x = x or _default_x(fields, rows)
+    hue = hue or next((name for name in fields if name != x), None)
+    names = [name for name in (hue, x) if name]
+    curves: dict[Any, Curve] = {}
+    for group in aggregate(rows, names, [y]):
+        label = f"{hue} = {group[hue]}" if hue else ""
+        curve = curves.setdefault(label, Curve(label, [], [], [], []))
+        curve.x.append(group[x])
+        curve.mean.append(group[y])
+        curve.low.append(group[f"{y}_low"])
+        curve.high.append(group[f"{y}_high"])
+    figure = sweep_figure(list(curves.values()), x.replace("_", " "), METRICS[y].sentence, METRICS[y].unit)
+    target = out or folder / "plot.png"
+    save_figure(figure, target)
+    note(f"figure: {target}")
+
+
+def _default_x(fields: list[str], rows: list[dict[str, Any]]) -> str:
+    from shoal.core.errors import ScenarioError
+
+    numeric = [name for name in fields if all(isinstance(row[name], (int, float)) for row in rows)]
+    if not numeric:
+        raise ScenarioError("--x", "no varied field is a number", f"choose one of: {', '.join(fields)}")
+    return max(numeric, key=lambda name: len({row[name] for row in rows}))
+
+
+def _print_groups(groups: list[dict[str, Any]], by: list[str]) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=None, padding=(0, 2, 0, 0))
+    for name in (*by, "runs", "time on target", "Xi", "engaged"):
+        table.add_column(name, justify="right", no_wrap=True)
+    for group in groups:
+        cells = [_with_interval(group, name) for name in ("time_on_target", "xi", "engaged")]
+        table.add_row(*(str(group[name]) for name in by), str(group["runs"]), *cells)
+    console = Console(file=sys.stdout, highlight=False)
+    if not console.is_terminal:
+        console.width = 160  # a file or a pipe has no margin to fit
+    console.print(table)
+
+
+def _with_interval(group: dict[str, Any], name: str) -> str:
+    low, high = group[f"{name}_low"], group[f"{name}_high"]
+    return f"{group[name]:.4f}" if low is None else f"{group[name]:.4f} ±{(high - low) / 2:.4f}"

@@ -1,0 +1,129 @@
+"""shoal sweep: many scenarios, many runs, a store that can be interrupted and resumed."""
+
+import os
+import sys
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from cyclopts import Parameter
+
+from shoal.cli.progress import note
+from shoal.cli.sweep_progress import sweep_progress
+
+
+def sweep(
+    scenario: str,
+    /,
+    *,
+    out: Path | None = None,
+    vary: Annotated[list[str] | None, Parameter(negative=(), consume_multiple=False)] = None,
+    runs: int | None = None,
+    jobs: int | None = None,
+    executor: Literal["local", "dask"] = "local",
+    scheduler: str | None = None,
+    steps: int | None = None,
+    seed: int | None = None,
+    assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
+    until_ci: float | None = None,
+    max_runs: int = 50,
+    independent: Annotated[bool, Parameter(negative=())] = False,
+    retry_failed: Annotated[bool, Parameter(negative=())] = False,
+    dry_run: Annotated[bool, Parameter(negative=())] = False,
+) -> None:
+    """Run every combination of varied fields, several times each; the same command again resumes.
+
+    Parameters
+    ----------
+    scenario
+        A preset's name, a scenario file, or a design file (TOML with [vary] or [[points]]).
+    out
+        Folder of the store: runs.sqlite while running, results.csv when done.
+    vary
+        FIELD=1,2,3 or FIELD=from:to:step (end included); may be repeated. Shorthands: neighbors, fast, agents,
+        target-speed, strategy; any other field by its path, such as strategy.delta.
+    runs
+        Replicates of each combination; default 5. Run r shares its chance in all of them (see --independent).
+    jobs
+        Threads, or Dask workers; default one per core.
+    executor
+        Where runs happen: threads here, or Dask.
+    scheduler
+        Address of a running Dask scheduler; without it, worker processes are started here.
+    steps
+        Time-steps of a run.
+    seed
+        Seed of all chance.
+    assignments
+        Any field by its path, for all combinations; may be repeated.
+    until_ci
+        Add replicates to each combination until the 95 % interval of its time on target is narrower than this.
+    max_runs
+        But no more than so many.
+    independent
+        Give every combination a seed of its own.
+    retry_failed
+        Run again what failed before.
+    dry_run
+        Print the design, the number of runs and an estimate of the time; run nothing.
+    """
+    from shoal.core.errors import ScenarioError
+    from shoal.experiments.cells import make_cells
+    from shoal.experiments.executors import in_threads, on_dask
+    from shoal.experiments.results import seal
+    from shoal.experiments.sweep import Stop, probe
+    from shoal.experiments.sweep import sweep as run_sweep
+    from shoal.scenario.edit import parse_assignment
+
+    design = _design(scenario, vary or [], runs)
+    for name, number in (("--runs", design.runs), ("--jobs", jobs), ("--max-runs", max_runs), ("--until-ci", until_ci)):
+        if number is not None and number <= 0:
+            raise ScenarioError(name, f"is {number}", "give a number above 0")
+    changes: dict[str, Any] = dict(parse_assignment(each) for each in assignments or [])
+    changes |= {name: value for name, value in (("steps", steps), ("seed", seed)) if value is not None}
+    cells = make_cells(design, changes, independent=independent)
+    total = len(cells) * design.runs
+    if dry_run:
+        for cell in cells:
+            sys.stdout.write(", ".join(f"{name}={value}" for name, value in cell.point.items()) + "\n")
+        seconds = probe(cells, design.runs, jobs or os.cpu_count() or 1)
+        sys.stdout.write(f"{len(cells)} combinations x {design.runs} runs = {total} runs, about {seconds:.0f} s\n")
+        return
+    if out is None:
+        raise ScenarioError("--out", "is missing", "name the folder of the store: --out DIR")
+    execute = on_dask(scheduler, jobs) if executor == "dask" else in_threads(jobs)
+    try:
+        with sweep_progress() as report:
+            rows = run_sweep(
+                design,
+                out,
+                changes=changes,
+                executor=execute,
+                until=Stop(until_ci, max_runs) if until_ci else None,
+                independent=independent,
+                retry_failed=retry_failed,
+                report=report,
+            )
+    except KeyboardInterrupt:
+        note(f"what is done is in {out}; the same command goes on from there")
+        raise
+    failed = sum(row["status"] == "failed" for row in rows)
+    table = seal(out, rows)
+    note(f"{len(rows)} runs in {out} ({failed} failed); table: {table}")
+    note(f"next: shoal results {out}   shoal plot {out}")
+    if failed:
+        first = next(row["error"] for row in rows if row["status"] == "failed")
+        note(f"first failure: {first}\n  fix: mend it, then add --retry-failed")
+
+
+def _design(source: str, vary: list[str], runs: int | None) -> Any:
+    from dataclasses import replace
+
+    from shoal.core.errors import ScenarioError
+    from shoal.experiments.design import Design, grid, is_design_file, parse_vary, read_design
+
+    if is_design_file(source):
+        if vary:
+            raise ScenarioError("--vary", f"{source} is a design already", "put the field under [vary] there")
+        design = read_design(source)
+        return replace(design, runs=runs) if runs else design
+    return Design(source, tuple(grid(dict(map(parse_vary, vary)))), runs or 5)

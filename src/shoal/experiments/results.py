@@ -1,0 +1,129 @@
+"""The rows of a sweep for people: aggregated with intervals, as a table for others, as a DataFrame."""
+
+import csv
+import io
+import json
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from shoal.core.errors import MissingExtraError, RecordError, ScenarioError
+from shoal.experiments.replicate import LIST_COLUMNS, Row
+from shoal.experiments.store import Store
+from shoal.metrics.summary import METRICS
+from shoal.record.statistics import estimate
+
+
+def read_rows(folder: str | Path) -> tuple[list[str], list[Row]]:
+    """Return the fields that a sweep varies and all its rows, in the order of their values.
+
+    Raises
+    ------
+    RecordError : the folder holds no sweep
+    """
+    with Store(folder, read_only=True) as store:
+        return json.loads(store.meta()["fields"]), store.rows()
+
+
+def load_results(folder: str | Path) -> Any:
+    """Return the rows of a sweep as a pandas.DataFrame, one row per run; `.set_index([...]).to_xarray()` labels them.
+
+    Raises
+    ------
+    RecordError : the folder holds no sweep
+    MissingExtraError : pandas is absent
+    """
+    try:
+        import pandas as pd
+    except ImportError:
+        raise MissingExtraError.of("pandas", "sweep", "loading results as a DataFrame") from None
+    _, rows = read_rows(folder)
+    return pd.DataFrame(rows)
+
+
+def aggregate(rows: Sequence[Row], by: Sequence[str], metrics: Sequence[str] = tuple(METRICS)) -> list[Row]:
+    """Return one row per combination of the fields `by`: runs, and mean, low, high of each metric (95 %, over runs).
+
+    Raises
+    ------
+    ScenarioError : a field that no row has
+    """
+    unknown = [name for name in by if rows and name not in rows[0]]
+    if unknown:
+        known = [name for name in rows[0] if name not in LIST_COLUMNS]
+        raise ScenarioError(f"--by {unknown[0]}", "is no column of this sweep", f"there are: {', '.join(known)}")
+    groups: dict[tuple[Any, ...], list[Row]] = {}
+    for row in rows:
+        if row["status"] == "done":
+            groups.setdefault(tuple(row[name] for name in by), []).append(row)
+    return [
+        {**dict(zip(by, key, strict=True)), "runs": len(group), **_intervals(group, metrics)}
+        for key, group in groups.items()
+    ]
+
+
+def to_csv(rows: Sequence[Row]) -> str:
+    """Rows as CSV; lists as JSON in their cell."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    names = list(rows[0]) if rows else []
+    writer.writerow(names)
+    for row in rows:
+        writer.writerow([json.dumps(row[name]) if isinstance(row[name], list) else row[name] for name in names])
+    return stream.getvalue()
+
+
+def write_parquet(rows: Sequence[Row], file: Path) -> None:
+    """Write rows to a parquet file, whole or not at all.
+
+    Raises
+    ------
+    MissingExtraError : pyarrow is absent
+    RecordError : the file cannot be written
+    """
+    try:
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+    except ImportError:
+        raise MissingExtraError.of("pyarrow", "sweep", "writing parquet") from None
+    stream = io.BytesIO()
+    pq.write_table(pa.Table.from_pylist(list(rows)), stream)
+    write_whole(file, stream.getvalue())
+
+
+def write_whole(file: Path, content: bytes) -> None:
+    """Write a file that is either complete or not there.
+
+    Raises
+    ------
+    RecordError : it cannot be written
+    """
+    partial = file.with_name(f"{file.name}.{os.getpid()}.partial")
+    try:
+        partial.write_bytes(content)
+        partial.replace(file)
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise RecordError(
+            str(file), f"cannot be written: {error.strerror or error}", "name a file you may write"
+        ) from error
+
+
+def seal(folder: Path, rows: Sequence[Row]) -> Path:
+    """Write the finished table beside the store as results.csv, for those who have no Shoal; return its path.
+
+    It holds what a rerun reproduces, so an interrupted and resumed sweep ends with the same bytes.
+    """
+    file = folder / "results.csv"
+    write_whole(file, to_csv(rows).encode())
+    return file
+
+
+def _intervals(group: Sequence[Row], metrics: Sequence[str]) -> Row:
+    numbers: Row = {}
+    for name in metrics:
+        known = estimate([row[name] for row in group])
+        low, high = known.ci95 or (None, None)
+        numbers |= {name: known.mean, f"{name}_low": low, f"{name}_high": high}
+    return numbers

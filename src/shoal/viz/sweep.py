@@ -1,0 +1,52 @@
+"""A sweep as curves with bands: one metric against one field."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from shoal.viz.curves import draw_band
+from shoal.viz.style import FLEET_COLORS, GRAY, new_figure, style
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_WIDTH, _HEIGHT = 6.4, 3.9  # [in]
+
+
+@dataclass
+class Curve:
+    """Mean and 95 % interval of a metric at each x; no interval (None) where there is one run only."""
+
+    label: str
+    x: list[Any]
+    mean: list[float]
+    low: list[float | None]
+    high: list[float | None]
+
+
+def sweep_figure(curves: list[Curve], x_label: str, y_label: str, unit: str) -> "Figure":
+    """Return a figure of curves; words on the x axis become categories."""
+    with style():
+        figure = new_figure(_WIDTH, _HEIGHT)
+        axes = figure.add_axes((0.1, 0.13, 0.87, 0.74))
+        words = sorted({str(x) for curve in curves for x in curve.x if isinstance(x, str)})
+        for number, curve in enumerate(curves):
+            color = FLEET_COLORS[number % len(FLEET_COLORS)]
+            order = sorted(range(len(curve.x)), key=lambda i: words.index(curve.x[i]) if words else curve.x[i])
+            x = [words.index(curve.x[i]) if words else curve.x[i] for i in order]
+            mean, low, high = (
+                np.array([values[i] for i in order], float) for values in (curve.mean, curve.low, curve.high)
+            )
+            draw_band(axes, x, mean, low, high, curve.label, color)
+            axes.plot(x, mean, "o", color=color, markersize=2.5)
+        if words:
+            axes.set_xticks(range(len(words)), words)
+        axes.set_xlabel(x_label)
+        axes.set_ylabel("" if unit == "1" else f"[{unit}]")
+        axes.set_title(y_label, pad=22 if any(curve.label for curve in curves) else 7, wrap=True)
+        axes.grid(visible=True)
+        if any(curve.label for curve in curves):
+            axes.legend(loc="lower left", bbox_to_anchor=(-0.01, 0.995), ncols=min(len(curves), 5), borderaxespad=0.1)
+        figure.text(0.97, 0.015, "bands: 95 % interval over runs", ha="right", va="bottom", fontsize=7, color=GRAY)
+    return figure
