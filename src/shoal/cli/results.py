@@ -87,13 +87,13 @@ def plot(
     names = [name for name in (hue, x) if name]
     curves: dict[Any, Curve] = {}
     for group in aggregate(rows, names, [y]):
-        label = f"{hue} = {group[hue]}" if hue else ""
+        label = f"{hue} {group[hue]}".replace("_", " ") if hue else ""
         curve = curves.setdefault(label, Curve(label, [], [], [], []))
         curve.x.append(group[x])
         curve.mean.append(group[y])
         curve.low.append(group[f"{y}_low"])
         curve.high.append(group[f"{y}_high"])
-    figure = sweep_figure(list(curves.values()), x.replace("_", " "), METRICS[y].sentence, METRICS[y].unit)
+    figure = sweep_figure(list(curves.values()), x.replace("_", " "), y.replace("_", " "), METRICS[y].unit)
     target = out or folder / "plot.png"
     save_figure(figure, target)
     note(f"figure: {target}")

@@ -7,13 +7,14 @@ import numpy.typing as npt
 
 from shoal.metrics.summary import evaluate
 from shoal.record.record import Record
-from shoal.viz.style import GRAY, TARGET
-from shoal.viz.words import estimate_text
+from shoal.viz.legend import headroom
+from shoal.viz.style import GRAY, GRID, TARGET
+from shoal.viz.words import count, estimate_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_BAND = 0.18  # opacity
+_BAND = 0.2  # opacity
 
 
 def draw_band(
@@ -26,39 +27,68 @@ def draw_band(
     color: str,
 ) -> None:
     """Draw a mean (P,) as a line and its interval from low to high as a band; NaN leaves a gap."""
-    axes.fill_between(np.asarray(x, float), np.asarray(low, float), np.asarray(high, float),
-                      color=color, alpha=_BAND, linewidth=0)  # fmt: skip
-    axes.plot(np.asarray(x, float), np.asarray(mean, float), color=color, label=label)
+    at, middle, bottom, top = (np.asarray(each, float) for each in (x, mean, low, high))
+    axes.fill_between(at, bottom, top, color=color, alpha=_BAND, linewidth=0)
+    axes.plot(at, middle, color=color, label=label)
 
 
 def draw_batches(axes: "Axes", record: Record) -> None:
-    """Draw time on target in consecutive batches of each run, the mean over all steps and its 95 % interval."""
-    ends = np.cumsum(record.tallies[0].steps)
-    middles = ends - record.tallies[0].steps / 2
-    runs = [evaluate("time_on_target", tally, record.facts)[1] for tally in record.tallies]
+    """Draw time on target in consecutive batches of each run, the mean over all steps and its 95 % interval.
+
+    Batches without a target are shaded. The band stops at 0 and 1, between which any share lies.
+    """
+    edges = np.concatenate([[0.0], np.cumsum(record.tallies[0].steps)])
+    runs = np.array([evaluate("time_on_target", tally, record.facts)[1] for tally in record.tallies])  # (R, B)
     _label(axes, record)
-    axes.set_xlim(0.0, float(ends[-1]))
+    axes.set_xlim(0.0, float(edges[-1]))
     if not np.isfinite(runs).any():
         axes.set_yticks([])
         axes.text(0.5, 0.5, "no target was ever there", transform=axes.transAxes, ha="center", color=GRAY)
         return
-    alpha = float(np.clip(3.0 / len(runs), 0.25, 0.8))
+    _shade_absence(axes, edges, ~np.isfinite(runs).any(axis=0))
+    _draw_runs(axes, (edges[:-1] + edges[1:]) / 2, runs)
+    total = record.estimate("time_on_target")
+    low, high = np.clip(total.ci95 or (np.nan, np.nan), 0.0, 1.0)
+    ends, ones = edges[[0, -1]], np.ones(2)
+    draw_band(axes, ends, total.mean * ones, low * ones, high * ones, f"mean {estimate_text(total)}", TARGET)
+    top = max(float(np.nanmax(runs)), float(np.nan_to_num(high)), 0.1)
+    axes.set_ylim(0.0, min(1.05 * top, 1.0))
+    headroom(axes, [str(label) for label in axes.get_legend_handles_labels()[1]])
+
+
+def _draw_runs(axes: "Axes", middles: npt.NDArray[np.float64], runs: npt.NDArray[np.float64]) -> None:
+    """A thin line per run, the fainter the more there are."""
+    alpha = float(np.clip(3.0 / len(runs), 0.2, 0.8))
+    name = "each run" if len(runs) > 1 else "batches"
     for number, batches in enumerate(runs):
         axes.plot(
-            middles, batches, ".-", color=GRAY, linewidth=0.8, markersize=3, alpha=alpha, zorder=1.8,
-            label=("each run" if len(runs) > 1 else "batches of the run") if number == 0 else None,
+            middles, batches, ".-", color=GRAY, linewidth=0.8, markersize=3, markeredgewidth=0, alpha=alpha,
+            zorder=1.8, clip_on=False, gid=f"run-{number}", label=None if number else name,
         )  # fmt: skip
-    total = record.estimate("time_on_target")
-    low, high = total.ci95 or (np.nan, np.nan)
-    ones = np.ones(2)
-    draw_band(axes, [0.0, ends[-1]], total.mean * ones, low * ones, high * ones, f"mean {estimate_text(total)}", TARGET)
-    top = 1.12 * max(float(np.nanmax(runs)), high if np.isfinite(high) else 0.0, 0.05)
-    axes.set_ylim(0.0, min(top, 1.03))
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.1, borderpad=0.2)
+
+
+def _shade_absence(axes: "Axes", edges: npt.NDArray[np.float64], absent: npt.NDArray[np.bool_]) -> None:
+    """Shade the batches without a target, and say so in the longest stretch of them."""
+    changes = np.flatnonzero(np.diff(np.concatenate([[False], absent, [False]]).astype(int)))
+    stretches = [(edges[begin], edges[end]) for begin, end in changes.reshape(-1, 2)]
+    for left, right in stretches:
+        axes.axvspan(left, right, color=GRID, alpha=0.6, linewidth=0, zorder=0.5, gid="absence")
+    if stretches:
+        left, right = max(stretches, key=lambda stretch: float(stretch[1] - stretch[0]))
+        upright = 90.0 if right - left < 0.25 * edges[-1] else 0.0
+        axes.text(
+            (left + right) / 2, 0.45, "no target there", transform=axes.get_xaxis_transform(), rotation=upright,
+            ha="center", va="center", fontsize=8, color=GRAY,
+        )  # fmt: skip
 
 
 def _label(axes: "Axes", record: Record) -> None:
+    from matplotlib.ticker import FuncFormatter, MaxNLocator
+
     axes.set_title("Time on target")
     axes.set_xlabel(f"step ({record.facts.time_step:g} s each)")
     axes.set_ylabel("share of steps")
+    axes.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10], integer=True))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: count(round(value))))
+    axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
     axes.grid(axis="y")

@@ -6,6 +6,7 @@ import numpy as np
 
 from shoal.metrics.heading_bearing import CENTERS
 from shoal.record.record import Record
+from shoal.viz.legend import headroom, short_name
 from shoal.viz.style import GRAY, fleet_color
 
 if TYPE_CHECKING:
@@ -17,6 +18,8 @@ def draw_phi_histogram(axes: "Axes", record: Record) -> None:
 
     Kwa et al., Heterogeneous Swarms, Eq. 8. Bars of all fleets sum to N.
     """
+    from matplotlib.ticker import MaxNLocator
+
     histogram = record.phi_histogram()  # (F, 11)
     middle = (CENTERS[:-1] + CENTERS[1:]) / 2
     edges = np.concatenate([[-1.0], middle, [1.0]])
@@ -29,12 +32,12 @@ def draw_phi_histogram(axes: "Axes", record: Record) -> None:
     for fleet, heights in enumerate(histogram):
         axes.bar(
             edges[:-1], heights, np.diff(edges), base, align="edge", color=fleet_color(fleet),
-            edgecolor="white", linewidth=0.6, label=record.facts.fleets[fleet],
+            edgecolor="white", linewidth=0.6, label=short_name(record.facts.fleets[fleet]),
         )  # fmt: skip
         base += heights
-    axes.set_ylim(0.0, 1.08 * base.max())
-    if len(histogram) > 1:
-        axes.legend(loc="upper left", reverse=True, borderaxespad=0.2)
+    axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
+    axes.set_ylim(0.0, base.max())
+    headroom(axes, [short_name(name) for name in record.facts.fleets] if len(histogram) > 1 else [])
 
 
 def _label(axes: "Axes") -> None:

@@ -8,7 +8,7 @@ TITLE = 0.33  # above an axes
 BELOW_CURVES, BELOW_HISTOGRAM, BELOW_SNAPSHOT = 0.55, 0.85, 0.6  # room for ticks and x label
 GUTTER = 0.85  # between columns, y label of the right one included
 SNAPSHOT = 4.7  # height
-NARROWEST = 2.6  # column of a snapshot
+NARROWEST = 3.0  # column of a snapshot
 WIDE = 1.5  # width / height from which the snapshot takes the whole width
 
 Box = tuple[float, float, float, float]  # left, bottom, width, height

@@ -1,4 +1,4 @@
-"""The legend above a snapshot: fleets, target, and the rim of those on target."""
+"""Legends that cover nothing: above a snapshot, or in room made for them above the data of a chart."""
 
 import textwrap
 from typing import TYPE_CHECKING, Any
@@ -20,9 +20,7 @@ def draw_legend(axes: "Axes", record: Record) -> float:
     """Name the signs of a snapshot above it; return the height taken [inch]."""
     from matplotlib.lines import Line2D
 
-    figure = axes.get_figure(root=True)
-    page = figure.get_figwidth() if figure else 0.0
-    width = page * axes.get_position(original=True).width
+    width = _inches(axes)[0]
 
     def sign(label: str, marker: str, **look: Any) -> Line2D:
         return Line2D([], [], linestyle="none", marker=marker, label=label, **look)
@@ -34,7 +32,7 @@ def draw_legend(axes: "Axes", record: Record) -> float:
     signs.append(sign("on target", "o", markerfacecolor="white", markeredgecolor=INK, markeredgewidth=1.3, markersize=6))
     signs.append(sign("target", "o", markerfacecolor=TARGET + "38", markeredgecolor=TARGET, markersize=8))
     axes.legend(
-        handles=signs, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=_columns(record, width),
+        handles=signs, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=_columns(_snapshot_labels(record), width),
         borderaxespad=0.2, borderpad=0.2,
     )  # fmt: skip
     return legend_height(record, width)
@@ -42,8 +40,20 @@ def draw_legend(axes: "Axes", record: Record) -> float:
 
 def legend_height(record: Record, width: float) -> float:
     """Height of the legend above a snapshot of a width [inch]."""
-    entries = len(record.facts.fleets) + 2
-    return ROW * -(-entries // _columns(record, width))
+    labels = _snapshot_labels(record)
+    return ROW * _rows(labels, width)
+
+
+def headroom(axes: "Axes", labels: list[str]) -> None:
+    """Raise the upper y limit, keeping the ticks at the data, and put the legend of these labels there."""
+    width, height = _inches(axes)
+    columns = _columns(labels, width)
+    share = (0.1 + ROW * _rows(labels, width)) / height if labels else 0.05
+    bottom, top = axes.get_ylim()
+    axes.set_yticks([tick for tick in axes.get_yticks() if bottom <= tick <= top * (1 + 1e-9)])
+    axes.set_ylim(bottom, bottom + (top - bottom) / (1 - min(share, 0.6)))
+    if labels:
+        axes.legend(loc="upper left", ncols=columns, borderaxespad=0.1, borderpad=0.2)
 
 
 def marker_area(record: Record, fleet: int) -> float:
@@ -63,8 +73,28 @@ def _fleet_labels(record: Record) -> list[str]:
     return [f"{short_name(name)}, {speed:g} m/s" for name, speed in zip(facts.fleets, facts.max_speeds, strict=True)]
 
 
-def _columns(record: Record, width: float) -> int:
-    """As many as fit beside each other, the longest label deciding."""
-    labels = _fleet_labels(record)
-    longest = _SIGN + _LETTER * max(len(label) for label in [*labels, "on target"])
-    return int(np.clip(width / longest, 1, len(labels) + 2))
+def _snapshot_labels(record: Record) -> list[str]:
+    return [*_fleet_labels(record), "on target", "target"]
+
+
+def _columns(labels: list[str], width: float) -> int:
+    """As many as fit side by side in a width [inch], each as wide as its longest label."""
+    for columns in range(len(labels), 1, -1):
+        rows = -(-len(labels) // columns)
+        filled = [labels[begin : begin + rows] for begin in range(0, len(labels), rows)]  # as matplotlib fills them
+        if sum(_SIGN + _LETTER * max(map(len, column)) for column in filled) <= width:
+            return columns
+    return 1
+
+
+def _rows(labels: list[str], width: float) -> int:
+    return -(-len(labels) // _columns(labels, width))
+
+
+def _inches(axes: "Axes") -> tuple[float, float]:
+    """Width and height of the room that axes were given."""
+    figure = axes.get_figure(root=True)
+    if figure is None:
+        return 0.0, 1.0
+    room = axes.get_position(original=True)
+    return float(figure.get_figwidth() * room.width), float(figure.get_figheight() * room.height)

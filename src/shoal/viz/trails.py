@@ -49,6 +49,7 @@ def draw_whole_path(axes: "Axes", frames: Trajectory, target: int) -> None:
     there = np.flatnonzero(np.isfinite(points).all(axis=1))
     if not there.size:
         return
+    _widen(axes, points[there])
     axes.plot(points[:, 0], points[:, 1], color=TARGET, linewidth=1.1, alpha=0.75, zorder=1.8, gid="target-path")
     for name, index, marker in (("start", there[0], "o"), ("end", there[-1], "s")):
         x, y = points[index]
@@ -70,6 +71,17 @@ def consecutive(step: npt.NDArray[np.int64], last: int, most: int) -> slice:
     first = max(0, last - most)
     jumps = np.flatnonzero(np.diff(step[first : last + 1]) != 1)
     return slice(first + int(jumps[-1]) + 1 if jumps.size else first, last + 1)
+
+
+def _widen(axes: "Axes", points: Points) -> None:
+    """Show points beyond the arena too, up to twice its size: a track may leave it."""
+    for limits, set_limits, values in (
+        (axes.get_xlim(), axes.set_xlim, points[:, 0]),
+        (axes.get_ylim(), axes.set_ylim, points[:, 1]),
+    ):
+        pad = 0.02 * (limits[1] - limits[0])
+        low, high = float(values.min()) - pad, float(values.max()) + pad
+        set_limits(max(min(limits[0], low), 2 * limits[0]), min(max(limits[1], high), 2 * limits[1]))
 
 
 def _name_point(axes: "Axes", name: str, x: float, y: float) -> None:
