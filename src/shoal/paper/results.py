@@ -39,7 +39,12 @@ class Figure:
 
 @dataclass
 class Reproduction:
-    """All that a report needs. `main` has columns fast, neighbors, target_speed and sensitivity also variant."""
+    """All that a report needs.
+
+    `main` has columns fast, neighbors, target_speed and sensitivity also variant. For aamas2020, `main` has the columns
+    preset (aamas2020, aamas2020-constant) and neighbors, `sensitivity` is empty, and tables["published"] has one row
+    per cell compared: metric, neighbors, measured, low, high, published, residual, tolerance, verdict.
+    """
 
     paper: str
     quick: bool

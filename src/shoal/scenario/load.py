@@ -105,6 +105,7 @@ def _as_scenario_error(
 ) -> ScenarioError:
     """One error for all problems, the first in full."""
     real = [(loc, each) for loc, each in problems if each["type"] != "too_short"]  # follows from others in a tuple
+    real.sort(key=lambda problem: problem[1]["type"] != "extra_forbidden")  # a misspelt field explains a missing one
     (loc, first), *others = real or problems
     path = _path(loc)
     line = _line_of(path, text)

@@ -4,6 +4,9 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+import numpy.typing as npt
+
 from shoal.viz.style import GRAY, INK
 from shoal.viz.words import length_text
 
@@ -35,13 +38,20 @@ def draw_arena(axes: "Axes", area: Mapping[str, Any]) -> None:
     _label_axes(axes, width, height)
 
 
-def draw_scale_bar(axes: "Axes") -> None:
-    """Draw a bar of a round length in the lower left of what the axes show."""
+def draw_scale_bar(axes: "Axes", points: npt.NDArray[np.float64]) -> None:
+    """Draw a bar of a round length in the corner of what the axes show that hides the fewest of these points (P, 2)."""
     left, right = axes.get_xlim()
     bottom, top = axes.get_ylim()
     length = round_length(0.25 * (right - left))
     pad = 0.06 * max(right - left, top - bottom)
-    x, y = left + pad, bottom + pad
+    corners = [(x, y) for y in (bottom + pad, top - 1.5 * pad) for x in (left + pad, right - pad - length)]
+
+    def hidden(corner: tuple[float, float]) -> int:
+        offset = points - corner
+        inside = (offset > (-pad / 2, -pad / 2)) & (offset < (length + pad / 2, 1.5 * pad))
+        return int(inside.all(axis=1).sum())
+
+    x, y = min(corners, key=hidden)  # the first of equals: lower left
     box = {"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
     axes.plot([x, x + length], [y, y], color=INK, linewidth=2.0, solid_capstyle="butt", zorder=8, gid="scale-bar")
     axes.annotate(

@@ -8,7 +8,7 @@ import numpy.typing as npt
 from shoal.metrics.summary import evaluate
 from shoal.record.record import Record
 from shoal.viz.legend import headroom
-from shoal.viz.style import GRAY, GRID, TARGET
+from shoal.viz.style import GRAY, TARGET
 from shoal.viz.words import count, estimate_text
 
 if TYPE_CHECKING:
@@ -45,7 +45,6 @@ def draw_batches(axes: "Axes", record: Record) -> None:
         axes.set_yticks([])
         axes.text(0.5, 0.5, "no target was ever there", transform=axes.transAxes, ha="center", color=GRAY)
         return
-    _shade_absence(axes, edges, ~np.isfinite(runs).any(axis=0))
     _draw_runs(axes, (edges[:-1] + edges[1:]) / 2, runs)
     total = record.estimate("time_on_target")
     low, high = np.clip(total.ci95 or (np.nan, np.nan), 0.0, 1.0)
@@ -53,7 +52,9 @@ def draw_batches(axes: "Axes", record: Record) -> None:
     draw_band(axes, ends, total.mean * ones, low * ones, high * ones, f"mean {estimate_text(total)}", TARGET)
     top = max(float(np.nanmax(runs)), float(np.nan_to_num(high)), 0.1)
     axes.set_ylim(0.0, min(1.05 * top, 1.0))
+    top = axes.get_ylim()[1]
     headroom(axes, [str(label) for label in axes.get_legend_handles_labels()[1]])
+    _shade_absence(axes, edges, ~np.isfinite(runs).any(axis=0), top)
 
 
 def _draw_runs(axes: "Axes", middles: npt.NDArray[np.float64], runs: npt.NDArray[np.float64]) -> None:
@@ -62,23 +63,23 @@ def _draw_runs(axes: "Axes", middles: npt.NDArray[np.float64], runs: npt.NDArray
     name = "each run" if len(runs) > 1 else "batches"
     for number, batches in enumerate(runs):
         axes.plot(
-            middles, batches, ".-", color=GRAY, linewidth=0.8, markersize=3, markeredgewidth=0, alpha=alpha,
+            middles, batches, ".-", color=GRAY, linewidth=0.8, markersize=4, markeredgewidth=0, alpha=alpha,
             zorder=1.8, clip_on=False, gid=f"run-{number}", label=None if number else name,
         )  # fmt: skip
 
 
-def _shade_absence(axes: "Axes", edges: npt.NDArray[np.float64], absent: npt.NDArray[np.bool_]) -> None:
+def _shade_absence(axes: "Axes", edges: npt.NDArray[np.float64], absent: npt.NDArray[np.bool_], top: float) -> None:
     """Shade the batches without a target, and say so in the longest stretch of them."""
     changes = np.flatnonzero(np.diff(np.concatenate([[False], absent, [False]]).astype(int)))
     stretches = [(edges[begin], edges[end]) for begin, end in changes.reshape(-1, 2)]
     for left, right in stretches:
-        axes.axvspan(left, right, color=GRID, alpha=0.6, linewidth=0, zorder=0.5, gid="absence")
+        axes.fill_between([left, right], 0.0, top, color="#f0f0f0", linewidth=0, zorder=2.2, gid="absence")
     if stretches:
         left, right = max(stretches, key=lambda stretch: float(stretch[1] - stretch[0]))
         upright = 90.0 if right - left < 0.25 * edges[-1] else 0.0
         axes.text(
-            (left + right) / 2, 0.45, "no target there", transform=axes.get_xaxis_transform(), rotation=upright,
-            ha="center", va="center", fontsize=8, color=GRAY,
+            (left + right) / 2, top / 2, "no target there", rotation=upright, ha="center", va="center",
+            fontsize=8, color=GRAY, zorder=2.3,
         )  # fmt: skip
 
 

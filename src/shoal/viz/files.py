@@ -52,12 +52,16 @@ def figure_format(path: str | Path) -> str:
     """
     kind = Path(path).suffix.lower().removeprefix(".")
     if kind not in FORMATS:
-        problem = f"ends in .{kind}, which is no format of a figure" if kind else "does not say the format of the figure"
+        problem = (
+            f"ends in .{kind}, which is no format of a figure" if kind else "does not say the format of the figure"
+        )
         raise ShoalError(str(path), problem, f"name a file that ends in .{', .'.join(FORMATS[:-1])} or .{FORMATS[-1]}")
     return kind
 
 
 def _unwritable(file: Path, error: OSError) -> RecordError:
     return RecordError(
-        str(file), f"cannot be written: {error.strerror or error}", "name a file in a folder that exists and you may write"
+        str(file),
+        f"cannot be written: {error.strerror or error}",
+        "name a file in a folder that exists and you may write",
     )

@@ -1,12 +1,12 @@
 """Legends that cover nothing: above a snapshot, or in room made for them above the data of a chart."""
 
-import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from shoal.record.record import Record
 from shoal.viz.style import INK, TARGET, fleet_color, fleet_marker
+from shoal.viz.words import shorten
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,10 +26,14 @@ def draw_legend(axes: "Axes", record: Record) -> float:
         return Line2D([], [], linestyle="none", marker=marker, label=label, **look)
 
     signs = [
-        sign(label, fleet_marker(fleet), color=fleet_color(fleet), markersize=max(4.0, marker_area(record, fleet) ** 0.5))
+        sign(
+            label, fleet_marker(fleet), color=fleet_color(fleet), markersize=max(4.0, marker_area(record, fleet) ** 0.5)
+        )
         for fleet, label in enumerate(_fleet_labels(record))
     ]
-    signs.append(sign("on target", "o", markerfacecolor="white", markeredgecolor=INK, markeredgewidth=1.3, markersize=6))
+    signs.append(
+        sign("on target", "o", markerfacecolor="white", markeredgecolor=INK, markeredgewidth=1.3, markersize=6)
+    )
     signs.append(sign("target", "o", markerfacecolor=TARGET + "38", markeredgecolor=TARGET, markersize=8))
     axes.legend(
         handles=signs, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=_columns(_snapshot_labels(record), width),
@@ -45,12 +49,17 @@ def legend_height(record: Record, width: float) -> float:
 
 
 def headroom(axes: "Axes", labels: list[str]) -> None:
-    """Raise the upper y limit, keeping the ticks at the data, and put the legend of these labels there."""
+    """Raise the upper y limit, leaving the ticks with the data, and put the legend of these labels there.
+
+    `axes` have artists with these labels and y limits that the data just fit.
+    """
     width, height = _inches(axes)
     columns = _columns(labels, width)
     share = (0.1 + ROW * _rows(labels, width)) / height if labels else 0.05
     bottom, top = axes.get_ylim()
-    axes.set_yticks([tick for tick in axes.get_yticks() if bottom <= tick <= top * (1 + 1e-9)])
+    ticks = np.asarray(axes.get_yticks())
+    top = next((tick for tick in ticks if top <= tick <= top + 0.35 * (ticks[1] - ticks[0])), top)
+    axes.set_yticks(ticks[(ticks >= bottom) & (ticks <= top * (1 + 1e-9))])
     axes.set_ylim(bottom, bottom + (top - bottom) / (1 - min(share, 0.6)))
     if labels:
         axes.legend(loc="upper left", ncols=columns, borderaxespad=0.1, borderpad=0.2)
@@ -64,8 +73,8 @@ def marker_area(record: Record, fleet: int) -> float:
 
 
 def short_name(name: str) -> str:
-    """A name that fits a legend."""
-    return textwrap.shorten(name, _LONGEST, placeholder="…") if " " in name else name[:_LONGEST]
+    """The name of a fleet as far as it fits a legend."""
+    return shorten(name.lstrip("_") or "fleet", _LONGEST)  # matplotlib hides labels that begin with _
 
 
 def _fleet_labels(record: Record) -> list[str]:
@@ -78,11 +87,11 @@ def _snapshot_labels(record: Record) -> list[str]:
 
 
 def _columns(labels: list[str], width: float) -> int:
-    """As many as fit side by side in a width [inch], each as wide as its longest label."""
-    for columns in range(len(labels), 1, -1):
-        rows = -(-len(labels) // columns)
-        filled = [labels[begin : begin + rows] for begin in range(0, len(labels), rows)]  # as matplotlib fills them
-        if sum(_SIGN + _LETTER * max(map(len, column)) for column in filled) <= width:
+    """Columns of the fewest rows that fit a width [inch], each column as wide as its longest label."""
+    for rows in range(1, len(labels)):
+        columns = -(-len(labels) // rows)
+        filled = np.array_split(np.array([len(label) for label in labels]), columns)  # as matplotlib fills them
+        if sum(_SIGN + _LETTER * int(column.max()) for column in filled) <= width:
             return columns
     return 1
 

@@ -11,7 +11,7 @@ from shoal.viz.arena import draw_arena, draw_scale_bar, in_kilometers
 from shoal.viz.legend import draw_legend, marker_area
 from shoal.viz.links import draw_links
 from shoal.viz.style import INK, TARGET, fleet_color, fleet_marker
-from shoal.viz.trails import consecutive, draw_agent_trails, draw_target_trail, draw_whole_path
+from shoal.viz.trails import consecutive, draw_agent_trails, draw_target_trail, draw_whole_path, target_points
 from shoal.viz.words import count, time_text
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def draw_snapshot(
     draw_arena(axes, scenario["area"])
     for number, target in enumerate(scenario["targets"]):
         if target["kind"] == "track":
-            draw_whole_path(axes, frames, number)
+            draw_whole_path(axes, frames, number, target["radius"])
         else:
             draw_target_trail(axes, frames, consecutive(frames.step, last, steps), number)
         _draw_target(axes, frames, last, number, target["radius"])
@@ -55,8 +55,10 @@ def draw_snapshot(
     if links:
         draw_links(axes, np.asarray(frames.x[last]), np.asarray(frames.y[last]), scenario["network"]["neighbors"])
     _draw_agents(axes, record, frames, last)
-    if in_kilometers(scenario["area"]) or any(target["kind"] == "track" for target in scenario["targets"]):
-        draw_scale_bar(axes)
+    tracks = [number for number, target in enumerate(scenario["targets"]) if target["kind"] == "track"]
+    if in_kilometers(scenario["area"]) or tracks:
+        paths = [target_points(frames, slice(None), number) for number in tracks]
+        draw_scale_bar(axes, np.concatenate([np.empty((0, 2)), *paths]))
     height = draw_legend(axes, record)
     axes.set_title(_moment(record, frames, run, last), pad=7.0 + POINTS * height)
 
@@ -97,9 +99,10 @@ def _draw_agents(axes: "Axes", record: Record, frames: Trajectory, last: int) ->
     for fleet, number in enumerate(facts.counts):
         mine = slice(begin, begin + number)
         on_target = np.asarray(frames.on_target[last, mine])
+        area = marker_area(record, fleet)
         axes.scatter(
             frames.x[last, mine], frames.y[last, mine], marker=fleet_marker(fleet), color=fleet_color(fleet),
-            s=marker_area(record, fleet) * np.where(on_target, 1.35, 1.0), linewidths=np.where(on_target, 0.2, 0.08) * marker_area(record, fleet) ** 0.5,
+            s=area * np.where(on_target, 1.35, 1.0), linewidths=area**0.5 * np.where(on_target, 0.2, 0.08),
             edgecolors=[INK if on else "white" for on in on_target], zorder=5, gid=f"fleet-{fleet}",
         )  # fmt: skip
         begin += number

@@ -22,6 +22,7 @@ RC: dict[str, Any] = {
     "font.family": "DejaVu Sans",  # travels with matplotlib: the same page everywhere
     "font.size": 8.5,
     "text.color": INK,
+    "text.parse_math": False,  # a dollar sign in a name is one
     "axes.titlesize": 9.5,
     "axes.titlelocation": "left",
     "axes.titleweight": "bold",

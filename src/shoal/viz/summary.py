@@ -11,7 +11,7 @@ from shoal.viz.layout import Boxes, lay_out, snapshot_size
 from shoal.viz.legend import legend_height
 from shoal.viz.snapshot import draw_snapshot
 from shoal.viz.style import GRAY, new_figure, style
-from shoal.viz.words import interval_text, metric_phrases, provenance_phrases, setup_phrases
+from shoal.viz.words import interval_text, metric_phrases, provenance_phrases, setup_phrases, shorten
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 _LINE = 0.19  # [inch] of small text
 _MARGIN = 0.25  # [inch] from the page's edge to text
 _LETTERS = 145  # of a line across the page
+_NAME = 70  # letters of its title
 
 
 def summary_figure(record: Record) -> "Figure":
@@ -30,7 +31,7 @@ def summary_figure(record: Record) -> "Figure":
     """
     with style():
         setup = _wrap(setup_phrases(record))
-        footer = [*_wrap([*metric_phrases(record), interval_text(record)]), *_wrap(provenance_phrases(record))]
+        footer = _wrap(metric_phrases(record)) + _wrap([interval_text(record), *provenance_phrases(record)])
         run = min(record.trajectories, default=None)
         aspect = _aspect(record) if run is not None else None
         legend = legend_height(record, snapshot_size(aspect)[0]) if aspect else 0.0
@@ -70,7 +71,7 @@ def _write(figure: "Figure", boxes: Boxes, name: str, setup: list[str], footer: 
     def line(text: str, height: float, **look: Any) -> None:
         figure.text(left, height / boxes.height, text, ha="left", va="baseline", **look)
 
-    line(textwrap.shorten(name, 70, placeholder="…") if " " in name else name[:70], boxes.height - 0.38, fontsize=14, fontweight="bold")
+    line(shorten(name, _NAME), boxes.height - 0.38, fontsize=14, fontweight="bold")
     for number, text in enumerate(setup):
         line(text, boxes.height - 0.62 - _LINE * number, fontsize=8.5)
     for number, text in enumerate(reversed(footer)):

@@ -15,7 +15,7 @@ Points = npt.NDArray[np.float64]
 
 
 def draw_target_trail(axes: "Axes", frames: Trajectory, window: slice, target: int) -> None:
-    """Draw where a target was in a window of consecutive frames, fading into the past; broken where it was not there."""
+    """Draw where a target was in a window of consecutive frames, fading into the past; broken where it was absent."""
     from matplotlib.collections import LineCollection
     from matplotlib.colors import to_rgb
 
@@ -43,13 +43,13 @@ def draw_agent_trails(axes: "Axes", frames: Trajectory, window: slice, counts: t
         begin += number
 
 
-def draw_whole_path(axes: "Axes", frames: Trajectory, target: int) -> None:
-    """Draw the path of a target over all frames, the first and the last point of it marked."""
+def draw_whole_path(axes: "Axes", frames: Trajectory, target: int, radius: float) -> None:
+    """Draw the path of a target of a radius [m] over all frames, the first and the last point of it marked."""
     points = target_points(frames, slice(None), target)
     there = np.flatnonzero(np.isfinite(points).all(axis=1))
     if not there.size:
         return
-    _widen(axes, points[there])
+    _widen(axes, points[there], radius)
     axes.plot(points[:, 0], points[:, 1], color=TARGET, linewidth=1.1, alpha=0.75, zorder=1.8, gid="target-path")
     for name, index, marker in (("start", there[0], "o"), ("end", there[-1], "s")):
         x, y = points[index]
@@ -73,13 +73,14 @@ def consecutive(step: npt.NDArray[np.int64], last: int, most: int) -> slice:
     return slice(first + int(jumps[-1]) + 1 if jumps.size else first, last + 1)
 
 
-def _widen(axes: "Axes", points: Points) -> None:
+def _widen(axes: "Axes", points: Points, radius: float) -> None:
     """Show points beyond the arena too, up to twice its size: a track may leave it."""
+    axes.set_anchor("NW")
     for limits, set_limits, values in (
         (axes.get_xlim(), axes.set_xlim, points[:, 0]),
         (axes.get_ylim(), axes.set_ylim, points[:, 1]),
     ):
-        pad = 0.02 * (limits[1] - limits[0])
+        pad = radius + 0.02 * (limits[1] - limits[0])
         low, high = float(values.min()) - pad, float(values.max()) + pad
         set_limits(max(min(limits[0], low), 2 * limits[0]), min(max(limits[1], high), 2 * limits[1]))
 

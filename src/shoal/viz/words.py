@@ -24,6 +24,12 @@ def number(value: float, decimals: int) -> str:
     return f"{value:.{decimals}f}".replace("-", "\u2212") if math.isfinite(value) else "unknown"
 
 
+def shorten(text: str, letters: int) -> str:
+    """A text on one line, cut to so many letters; the cut is marked."""
+    text = " ".join(text.split())
+    return text if len(text) <= letters else text[: letters - 1].rstrip() + "…"
+
+
 def estimate_text(value: Estimate) -> str:
     """Mean [low, high], to two digits of the interval's half-width."""
     if value.ci95 is None:
@@ -52,7 +58,7 @@ def setup_phrases(record: Record) -> list[str]:
     fleets = ", ".join(f"{n} {name}" for n, name in zip(facts.counts, facts.fleets, strict=True))
     agents = plural(facts.agents, "agent")
     return [
-        f"{agents} ({fleets})" if len(facts.counts) > 1 else f"{agents} {facts.fleets[0]}",
+        f"{agents} ({fleets})" if len(facts.counts) > 1 else f"{agents} ({facts.fleets[0]})",
         f"k = {scenario['network']['neighbors']}",
         str(scenario["strategy"]["name"]),
         targets_text(scenario["targets"]),
@@ -82,8 +88,9 @@ def metric_phrases(record: Record) -> list[str]:
 def interval_text(record: Record) -> str:
     """What the intervals are over."""
     runs, batches = len(record.tallies), record.tallies[0].steps.size
-    over = plural(runs, "run") if runs > 1 else f"{plural(batches, 'batch')}es of the run".replace("batchs", "batch")
-    return f"[95 % interval over {over}]"
+    if max(runs, batches) < 2:
+        return "too short for intervals"
+    return f"[ ]: 95 % interval over {plural(runs, 'run') if runs > 1 else f'{batches} batches of the run'}"
 
 
 def provenance_phrases(record: Record) -> list[str]:

@@ -1,0 +1,179 @@
+"""Curves against the share of fast buoys and against k: time on target and velocity fluctuation."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from shoal.paper.figures_peaks import Peak, peak_of
+from shoal.paper.figures_series import (
+    AGENTS,
+    ALL_SLOW,
+    DOUBLE,
+    MIXED,
+    Quantity,
+    curve,
+    levels,
+    plain_rows,
+    seeds_text,
+    series,
+    speed_text,
+    spread,
+    swarm_text,
+    where,
+)
+from shoal.paper.results import Figure, Row
+from shoal.viz.legend import headroom
+from shoal.viz.style import FLEET_COLORS, INK, new_figure, style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_MARKERS = ("o", "s", "^", "D", "v", "P")
+_SWARM_COLORS = (FLEET_COLORS[0], FLEET_COLORS[2], FLEET_COLORS[3])
+_MOST_K = 6  # curves in one panel
+_PAPER_K = 20  # of the paper's figures against the share
+
+
+def share_figure(rows: Sequence[Row], name: str, title: str, quantities: Sequence[Quantity]) -> Figure | None:
+    """Draw quantities (a row of panels each) against the share of fast buoys, a curve per k, a panel per target speed.
+
+    Returns None where no k was run with two shares.
+    """
+    known = plain_rows(rows)
+    ks = _ks_with_shares(known)
+    rows = [row for row in known if row["neighbors"] in ks]
+    speeds = levels(rows, "target_speed")
+    if not ks or not speeds:
+        return None
+    data: list[Row] = []
+    with style():
+        colors = _shades(len(ks))
+        figure = new_figure(DOUBLE if len(speeds) > 1 else 0.62 * DOUBLE, 0.75 + 2.05 * len(quantities))
+        figure.set_layout_engine("constrained", h_pad=0.06, w_pad=0.06)
+        panels = figure.subplots(len(quantities), len(speeds), squeeze=False, sharex=True, sharey="row")
+        for (i, quantity), (j, speed) in _pairs(quantities, speeds):
+            axes = panels[i, j]
+            for k, color, marker in zip(ks, colors, _MARKERS, strict=False):
+                points = series(where(rows, neighbors=k, target_speed=speed), "fast", quantity)
+                curve(axes, points, f"k = {k}", color, marker, 100 / AGENTS)
+                data += points.rows("fast", quantity, neighbors=k, target_speed=speed)
+            _label_panel(axes, i, j, quantity, speed)
+            axes.set_xticks(range(0, 101, 20))
+        for axes in panels[-1]:
+            axes.set_xlabel("share of fast buoys [%]")
+        handles, labels = panels[0, 0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside upper left", ncols=len(ks), borderaxespad=0.2)
+    caption = (
+        f"{_sentence(quantities)} of a swarm of {AGENTS} buoys against its share of fast ones, at "
+        f"{_several('k', ks)}, for {_speeds(speeds)}. {seeds_text(rows)} Seeds are shared by all points, so that "
+        "differences between points are surer than their bands suggest."
+    )
+    return Figure(name, title, caption, figure, data)
+
+
+def k_figure(rows: Sequence[Row], name: str, title: str, quantity: Quantity, symbol: str) -> Figure | None:
+    """Draw a quantity against k for the mixed and the all-slow swarm, peaks marked with their intervals.
+
+    Returns None where no swarm was run with two k.
+    """
+    known = plain_rows(rows)
+    swarms = _swarms_with_ks(known)
+    rows = [row for row in known if row["fast"] in swarms]
+    speeds = levels(rows, "target_speed")
+    if not swarms or not speeds:
+        return None
+    data: list[Row] = []
+    with style():
+        figure = new_figure(DOUBLE if len(speeds) > 1 else 0.62 * DOUBLE, 3.35)
+        figure.set_layout_engine("constrained", h_pad=0.06, w_pad=0.06)
+        panels = figure.subplots(1, len(speeds), squeeze=False, sharey=True)[0]
+        peaks: list[tuple[Any, str, str, Peak]] = []
+        for j, speed in enumerate(speeds):
+            for fast, color, marker in zip(swarms, _SWARM_COLORS, _MARKERS, strict=False):
+                cell = where(rows, fast=fast, target_speed=speed)
+                points = series(cell, "neighbors", quantity)
+                peak = peak_of(cell, quantity)
+                label = swarm_text(fast) + (f": {symbol} = {peak.text}" if peak else "")
+                curve(panels[j], points, label, color, marker)
+                data += points.rows("neighbors", quantity, fast=fast, target_speed=speed)
+                if peak:
+                    peaks.append((panels[j], color, marker, peak))
+                    data.append(peak.row(quantity, symbol, fast=fast, target_speed=speed))
+            _label_panel(panels[j], 0, j, quantity, speed)
+            panels[j].set_xlabel("number of neighbors k")
+            panels[j].set_xticks([2, 10, 20, 30, 40, 49])
+        _draw_peaks(peaks)
+        figure.draw_without_rendering()  # panels take their places
+        for axes in panels:
+            headroom(axes, axes.get_legend_handles_labels()[1])
+    caption = (
+        f"{quantity.name.capitalize()} of the {_several('swarm', [swarm_text(fast) for fast in swarms])} against the "
+        f"number of neighbors k that a buoy listens to, for {_speeds(speeds)}. Dotted lines lead from each peak to "
+        f"its place {symbol} with its 95 % interval, at the bottom. {seeds_text(rows)}"
+    )
+    return Figure(name, title, caption, figure, data)
+
+
+def _ks_with_shares(rows: Sequence[Row]) -> list[Any]:
+    """The k that were run with the most shares, at most six."""
+    shares = {k: len(levels(where(rows, neighbors=k), "fast")) for k in levels(rows, "neighbors")}
+    enough = max(2, max(shares.values(), default=0) / 2)
+    return spread([k for k, count in shares.items() if count >= enough], _MOST_K, _PAPER_K)
+
+
+def _swarms_with_ks(rows: Sequence[Row]) -> list[int]:
+    """Fast buoys in the mixed and in the all-slow swarm, if they were run with two k or more."""
+    return [fast for fast in (MIXED, ALL_SLOW) if len(levels(where(rows, fast=fast), "neighbors")) > 1]
+
+
+def _draw_peaks(peaks: list[tuple["Axes", str, str, Peak]]) -> None:
+    """Under the curves, the place of each peak with its interval; a dotted line leads there."""
+    if not peaks:
+        return
+    axes = peaks[0][0]
+    bottom, top = axes.get_ylim()
+    step = 0.055 * (top - bottom)
+    lanes: dict[Any, int] = {}
+    for panel, color, marker, peak in peaks:
+        lane = lanes[panel] = lanes.get(panel, 0) + 1
+        y = bottom - (lane - 0.25) * step
+        panel.plot([peak.x, peak.x], [y, peak.height], ":", color=color, linewidth=1.0, zorder=2.5)
+        panel.plot([peak.low, peak.high], [y, y], "-", color=color, linewidth=2.2, solid_capstyle="butt", zorder=3)
+        panel.plot([peak.x], [y], marker, color=color, markeredgecolor=INK, markeredgewidth=0.7, markersize=5, zorder=4)
+    ticks = [tick for tick in axes.get_yticks() if bottom <= tick <= top]
+    axes.set_ylim(bottom - (max(lanes.values()) + 0.5) * step, top)
+    axes.set_yticks(ticks)
+
+
+def _label_panel(axes: "Axes", row: int, column: int, quantity: Quantity, speed: float) -> None:
+    axes.grid(visible=True)
+    if row == 0:
+        axes.set_title(speed_text(speed))
+    if column == 0:
+        axes.set_ylabel(quantity.label)
+
+
+def _shades(count: int) -> list[Any]:
+    """Colors from dark to light, for values in order."""
+    from matplotlib import colormaps
+
+    return [colormaps["viridis"](share) for share in np.linspace(0.0, 0.85, count)]
+
+
+def _pairs(rows: Sequence[Any], columns: Sequence[Any]) -> list[tuple[tuple[int, Any], tuple[int, Any]]]:
+    return [(row, column) for row in enumerate(rows) for column in enumerate(columns)]
+
+
+def _sentence(quantities: Sequence[Quantity]) -> str:
+    text = " and ".join(quantity.name for quantity in quantities)
+    return text[0].upper() + text[1:]
+
+
+def _several(noun: str, values: Sequence[Any]) -> str:
+    told = ", ".join(str(value) for value in values)
+    return f"{noun} = {told}" if noun == "k" else f"{noun}{'s' if len(values) > 1 else ''} ({'; '.join(values)})"
+
+
+def _speeds(speeds: Sequence[float]) -> str:
+    return "a target of " + " and ".join(f"{speed:g}" for speed in speeds) + " m/s"

@@ -1,0 +1,145 @@
+"""Rows of runs as the points of a curve: means over seeds with their 95 % intervals."""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from shoal.paper.results import Row
+from shoal.record.statistics import estimate
+from shoal.scenario.edit import SHORTHANDS
+from shoal.viz.curves import draw_band
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+SINGLE, DOUBLE = 3.5, 7.16  # [inch] column widths of the paper
+AGENTS = 50
+MIXED, ALL_SLOW = 15, 0  # fast buoys in the two swarms that the paper compares
+CURVE_FIELDS = ("fast", "neighbors", "target_speed")
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A metric as a figure shows it: the column, its name, unit, and the factor from the column to the unit."""
+
+    column: str
+    name: str
+    unit: str
+    factor: float = 1.0
+
+    @property
+    def label(self) -> str:
+        """For an axis."""
+        return f"{self.name} [{self.unit}]" if self.unit else self.name
+
+
+TIME_ON_TARGET = Quantity("time_on_target", "time on target", "%", 100.0)
+XI = Quantity("xi", "velocity fluctuation Ξ", "")
+XI_RAW = Quantity("xi_raw", "mean |u|, not normalized", "m/s")
+RESPONSE = Quantity("response", "response", "unit/step")
+
+
+@dataclass(frozen=True)
+class Series:
+    """Mean and 95 % interval over seeds at each x; the interval is NaN where there is one seed only."""
+
+    x: tuple[float, ...]
+    mean: tuple[float, ...]
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+    runs: tuple[int, ...]
+
+    def rows(self, x: str, quantity: Quantity, **labels: Any) -> list[Row]:
+        """One row per point, for the table behind a figure."""
+        points = zip(self.x, self.mean, self.low, self.high, self.runs, strict=True)
+        return [
+            {**labels, x: at, "quantity": quantity.name, "unit": quantity.unit or "1",
+             "mean": mean, "low": low, "high": high, "runs": runs}
+            for at, mean, low, high, runs in points
+        ]  # fmt: skip
+
+
+def plain_rows(rows: Iterable[Row]) -> list[Row]:
+    """The finished runs that differ from the preset in nothing but fast, neighbors and target speed."""
+    return [
+        row
+        for row in rows
+        if row.get("status", "done") == "done"
+        and not any(value is not None and _varies_more(name) for name, value in row.items())
+    ]
+
+
+def levels(rows: Iterable[Row], field: str) -> list[Any]:
+    """The values of a field, each once, sorted."""
+    return sorted({row[field] for row in rows if row.get(field) is not None})
+
+
+def where(rows: Iterable[Row], **fields: Any) -> list[Row]:
+    """The rows in which the fields have these values."""
+    return [row for row in rows if all(row.get(name) == value for name, value in fields.items())]
+
+
+def series(rows: Iterable[Row], x: str, quantity: Quantity) -> Series:
+    """The mean of a quantity at each value of the field x, in order; cells without a number are left out."""
+    cells: dict[float, list[float]] = {}
+    for row in rows:
+        value = row.get(quantity.column)
+        if row.get(x) is not None and value is not None and math.isfinite(value):
+            cells.setdefault(float(row[x]), []).append(quantity.factor * value)
+    known = {at: estimate(cells[at]) for at in sorted(cells)}
+    intervals = [each.ci95 or (math.nan, math.nan) for each in known.values()]
+    return Series(
+        tuple(known),
+        tuple(each.mean for each in known.values()),
+        tuple(low for low, _ in intervals),
+        tuple(high for _, high in intervals),
+        tuple(len(each.runs) for each in known.values()),
+    )
+
+
+def curve(axes: "Axes", points: Series, label: str, color: str, marker: str, x_factor: float = 1.0) -> None:
+    """Draw a series with its band and a marker per cell; a single point gets its interval as a bar."""
+    x = x_factor * np.array(points.x)
+    draw_band(axes, x, points.mean, points.low, points.high, "", color)
+    if len(x) == 1:
+        axes.vlines(x, points.low, points.high, color=color, linewidth=1.4)
+    axes.plot(x, points.mean, marker, color=color, markersize=3.2, markeredgewidth=0, zorder=3)
+    axes.plot([], [], f"{marker}-", color=color, markersize=4, markeredgewidth=0, label=label)  # for the legend
+
+
+def spread(values: Sequence[Any], most: int, keep: Any = None) -> list[Any]:
+    """At most so many of the sorted values, spread over them; `keep` is among them if it is one."""
+    if len(values) <= most:
+        return list(values)
+    chosen = {values[round(number * (len(values) - 1) / (most - 1))] for number in range(most)}
+    if keep in values and keep not in chosen:
+        inner = [value for value in chosen if value not in (values[0], values[-1])] or list(chosen)
+        chosen -= {min(inner, key=lambda value: abs(value - keep))}
+        chosen |= {keep}
+    return sorted(chosen)
+
+
+def speed_text(speed: float) -> str:
+    """The speed of a target, for a title."""
+    return f"Target {speed:g} m/s"
+
+
+def swarm_text(fast: int) -> str:
+    """What a swarm of so many fast buoys is made of."""
+    if fast == 0:
+        return f"all {AGENTS} slow"
+    return f"{fast} fast, {AGENTS - fast} slow" if fast < AGENTS else f"all {AGENTS} fast"
+
+
+def seeds_text(rows: Iterable[Row]) -> str:
+    """What the bands are over."""
+    seeds = len({row.get("run") for row in rows})
+    return f"Bands: 95 % interval over {seeds} seeds." if seeds > 1 else "One seed: no intervals."
+
+
+def _varies_more(name: str) -> bool:
+    """Whether a column is a field of the scenario that the paper's curves do not vary."""
+    return "." in name or (name in SHORTHANDS and name not in CURVE_FIELDS)

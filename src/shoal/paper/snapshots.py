@@ -1,0 +1,94 @@
+"""Moments of a real run that the paper shows as pictures, found by rule and not by hand."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.metrics.heading_bearing import STATIONARY
+from shoal.record.record import Record
+from shoal.record.trajectory import Trajectory
+from shoal.scenario.load import load
+from shoal.scenario.schema import Scenario
+from shoal.simulation import Simulation, facts_of
+
+STEPS = 20_000  # searched for the moments
+_ROUNDING = 1e-9  # [m] a_R climbs in steps that do not add up exactly
+
+Flags = npt.NDArray[np.bool_]
+Floats = npt.NDArray[np.float64]
+
+
+class Locked(NamedTuple):
+    """The frame with the most locked agents: `locked` (N,), and `pushing` (N,), those with a_R at its maximum."""
+
+    frame: int
+    locked: Flags
+    pushing: Flags
+
+
+class Clustering(NamedTuple):
+    """Frames where the fast buoys are closest together and where they are apart again (None: not by the end).
+
+    `distance` (K,) is the mean distance between two fast buoys [m] in every frame, `median` that of all frames [m].
+    """
+
+    together: int
+    apart: int | None
+    distance: Floats
+    median: float
+
+
+def watch(scenario: Scenario | None = None, steps: int = STEPS, run: int = 0) -> Record:
+    """Run the paper's mixed swarm (or another scenario), and return the record with every frame kept."""
+    scenario = scenario or load("oceans2020")
+    simulation = Simulation(scenario, run)
+    frames = simulation.advance(steps, every=1)
+    content: dict[str, Any] = scenario.model_dump(mode="json")
+    return Record(content, facts_of(scenario), (simulation.tally,), {}, {run: frames} if frames else {})
+
+
+def find_locked(record: Record, run: int = 0) -> Locked:
+    """Return the first frame with the most locked agents while another is on target.
+
+    Locked is who has a_R at its maximum and is slower than a tenth of its top speed, as in the phi histogram.
+    """
+    frames = record.trajectories[run]
+    top = np.repeat(record.facts.max_speeds, record.facts.counts)
+    pushing = np.asarray(frames.memory["repulsion"]) >= record.scenario["strategy"]["repulsion_max"] - _ROUNDING
+    locked = pushing & (np.hypot(frames.vx, frames.vy) < STATIONARY * top)
+    count = np.where(np.asarray(frames.on_target).any(axis=1), locked.sum(axis=1), -1)
+    frame = int(count.argmax())
+    return Locked(frame, locked[frame], pushing[frame])
+
+
+def find_clustering(record: Record, run: int = 0) -> Clustering:
+    """Return when the fast buoys are closest together while somebody is on target, and apart again later.
+
+    Apart again is the first later frame in which their mean distance exceeds its median over all frames.
+    """
+    frames = record.trajectories[run]
+    distance = mean_distance(frames, fast_agents(record))
+    median = float(np.median(distance))
+    tracking = np.asarray(frames.on_target).any(axis=1)
+    together = int(np.where(tracking, distance, np.inf).argmin())
+    later = np.flatnonzero(distance[together:] > median)
+    return Clustering(together, together + int(later[0]) if later.size else None, distance, median)
+
+
+def fast_agents(record: Record) -> slice:
+    """The agents of the fastest fleet."""
+    fleet = int(np.argmax(record.facts.max_speeds))
+    begin = sum(record.facts.counts[:fleet])
+    return slice(begin, begin + record.facts.counts[fleet])
+
+
+def mean_distance(frames: Trajectory, agents: slice) -> Floats:
+    """Mean distance between two of the agents in every frame [m], (K,)."""
+    x, y = np.asarray(frames.x[:, agents]), np.asarray(frames.y[:, agents])
+    first, second = np.triu_indices(x.shape[1], 1)
+    total = np.zeros(len(x))
+    for i, j in zip(first, second, strict=True):  # pair by pair, so that memory does not grow with pairs
+        total += np.hypot(x[:, i] - x[:, j], y[:, i] - y[:, j])
+    distance: Floats = total / max(first.size, 1)
+    return distance

@@ -1,0 +1,232 @@
+"""The command line: what it prints, and what it says of bad input."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from shoal.cli.main import run_command
+
+SHARED = Path(__file__).resolve().parents[2] / ".." / "shared" / "data"
+
+
+def shoal(capsys, *tokens):
+    """Run a command; return exit code, stdout and stderr."""
+    code = run_command([str(token) for token in tokens])
+    captured = capsys.readouterr()
+    return code, captured.out, captured.err
+
+
+class TestRun:
+    def test_json_is_one_object_and_nothing_else(self, capsys):
+        code, out, _ = shoal(capsys, "run", "oceans2020", "--steps", 400, "--runs", 2, "--seed", 9, "--json")
+        summary = json.loads(out)
+        assert code == 0
+        for metric in ("time_on_target", "xi", "xi_raw", "response"):
+            assert set(summary[metric]) == {"mean", "ci95", "runs"}
+            assert len(summary[metric]["runs"]) == 2
+            assert summary[metric]["ci95"][0] <= summary[metric]["mean"] <= summary[metric]["ci95"][1]
+        assert len(summary["phi_histogram"]) == 11
+        assert sum(summary["phi_histogram"]) == pytest.approx(50)
+        assert (summary["steps"], summary["seed"]) == (400, 9)
+        assert len(summary["scenario_hash"]) == 16
+
+    def test_response_is_xi_raw_of_all_agents_in_arena_units_per_step(self, capsys):
+        _, out, _ = shoal(capsys, "run", "oceans2020", "--steps", 300, "--json")
+        summary = json.loads(out)
+        assert summary["response"]["mean"] == pytest.approx(50 * 0.1 * summary["xi_raw"]["mean"])
+
+    def test_options_change_the_scenario(self, capsys):
+        _, _out, _ = shoal(
+            capsys, "run", "oceans2020", "-k", 7, "--fast", 5, "--agents", 40, "--target-speed", "5 kn", "--steps", 50,
+            "--set", "strategy.delta=0.02", "--set", "fleets.BoB-0.start=corner", "--out", "record", "--json",
+        )  # fmt: skip
+        scenario = json.loads(Path("record/record.json").read_text())["scenario"]
+        assert [(fleet["name"], fleet["count"]) for fleet in scenario["fleets"]] == [("BoB-1", 5), ("BoB-0", 35)]
+        assert scenario["network"]["neighbors"] == 7
+        assert scenario["targets"][0]["speed"] == pytest.approx(5 * 1852 / 3600)
+        assert scenario["strategy"]["delta"] == 0.02
+        assert scenario["fleets"][1]["start"] == "corner"
+
+    def test_a_saved_record_shows_the_same_numbers(self, capsys):
+        _, printed, _ = shoal(capsys, "run", "oceans2020", "--steps", 300, "--out", "r", "--json")
+        code, shown, _ = shoal(capsys, "show", "r", "--json")
+        assert code == 0
+        assert json.loads(shown) == json.loads(printed)
+
+    def test_a_figure_is_drawn(self, capsys):
+        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install 'shoal[plots]'")
+        code, _, _ = shoal(capsys, "run", "oceans2020", "--steps", 300, "--figure", "f.png")
+        assert code == 0
+        assert Path("f.png").read_bytes().startswith(b"\x89PNG")
+
+    def test_all_slow_is_a_fleet_less(self, capsys):
+        _, out, _ = shoal(capsys, "run", "oceans2020", "--fast", 0, "--steps", 50, "--json")
+        assert list(json.loads(out)["fleets"]) == ["BoB-0"]
+
+
+BAD = [
+    (["run", "ocean2020"], "did you mean 'oceans2020'"),
+    (["run", "missing.toml"], "no preset and no file"),
+    (["run", "oceans2020", "-k", "50"], "can hear at most 49"),
+    (["run", "oceans2020", "-k", "x"], "int"),
+    (["run", "oceans2020", "--target-speed=-3"], "targets.0.speed: -3"),
+    (["run", "oceans2020", "--target-speed", "fast"], "is no quantity in m/s"),
+    (["run", "oceans2020", "--set", "network.neighbours=3"], "did you mean 'neighbors'"),
+    (["run", "oceans2020", "--set", "netwerk.neighbors=3"], "did you mean 'network'"),
+    (["run", "oceans2020", "--set", "nothing"], "is no assignment"),
+    (["run", "oceans2020", "--fast", "60"], "from 0 to 50"),
+    (["run", "aamas2020", "--fast", "5"], "one make of agents only"),
+    (["run", "oceans2020", "--agents", "1"], "2 or more"),
+    (["run", "oceans2020", "--steps", "0"], "steps"),
+    (["run", "oceans2020", "--runs", "0"], "ask for 1 or more"),
+    (["run", "oceans2020", "--strategy", "knn"], "did you mean 'knn-pso'"),
+    (["run", "oceans2020", "--strategy", "./none.py"], "cannot be read"),
+    (["run", "oceans2020", "--figure", "f.bmp"], "no format of a figure"),
+    (["run", "oceans2020", "--track-id", "a=b"], "needs --target-track"),
+    (["run", "oceans2020", "--target-track", "none.csv"], "no such file"),
+    (["run", "oceans2020", "--target-track", "empty.csv"], "empty"),
+    (["run", "oceans2020", "--target-track", "nan.csv"], "nan.csv:3"),
+    (["run", "oceans2020", "--target-track", "backwards.csv"], "backwards.csv:3"),
+    (["run", "oceans2020", "--steps", "10", "--out", "/proc/none/r"], "cannot be written"),
+    (["run", "oceans2020", "--steps", "10", "--out", "full"], "exists already"),
+    (["run", "oceans2020", "--frobnicate"], "--frobnicate"),
+    (["run"], "SCENARIO"),
+    (["show", "full"], "is no record"),
+    (["check", "bad.toml"], "bad.toml:2 stepz: unknown field"),
+    (["scenario", "nope"], "no preset"),
+    (["sweep", "oceans2020", "--vary", "neighbors=10:60:10", "--out", "s"], "can hear at most 49"),
+    (["sweep", "oceans2020", "--vary", "neighbors=3,4"], "--out DIR"),
+    (["sweep", "oceans2020", "--vary", "neighbors", "--out", "s"], "field=1,2,3"),
+    (["results", "full"], "holds no sweep"),
+    (["plot", "full"], "holds no sweep"),
+]
+
+
+class TestBadInput:
+    @pytest.fixture(autouse=True)
+    def files(self):
+        Path("empty.csv").write_text("")
+        Path("nan.csv").write_text("time,lat,lon\n2020-01-01T00:00:00Z,50,1\n2020-01-01T00:01:00Z,nan,1\n")
+        Path("backwards.csv").write_text("time,lat,lon\n2020-01-01T00:01:00Z,50,1\n2020-01-01T00:00:00Z,50,1\n")
+        Path("bad.toml").write_text('name = "x"\nstepz = 3\n')
+        Path("full").mkdir()
+        Path("full/file").write_text("")
+
+    @pytest.mark.parametrize(("tokens", "says"), BAD, ids=[" ".join(tokens) for tokens, _ in BAD])
+    def test_gives_one_clear_error_and_leaves_nothing(self, capsys, tokens, says):
+        before = sorted(Path().rglob("*"))
+        code, out, err = shoal(capsys, *tokens)
+        assert code == 2
+        assert out == ""
+        assert says in err
+        assert err.count("shoal: ") == 1
+        assert "fix:" in err
+        assert "Traceback" not in err
+        assert sorted(Path().rglob("*")) == before
+
+
+class TestListings:
+    def test_presets_strategies_scenario_check_and_schema(self, capsys):
+        assert "aamas2020-constant" in shoal(capsys, "presets")[1]
+        assert "knn-pso" in shoal(capsys, "strategies")[1]
+        listed = json.loads(shoal(capsys, "strategies", "--json")[1])
+        assert next(each for each in listed if each["name"] == "knn-pso")["parameters"]["delta"]["unit"] == "m"
+        Path("mine.toml").write_text(shoal(capsys, "scenario", "oceans2020")[1])
+        assert "fine" in shoal(capsys, "check", "mine.toml")[1]
+        assert "fleets" in json.loads(shoal(capsys, "schema")[1])["properties"]
+
+    @pytest.mark.parametrize("command", ["run", "show", "sweep", "results", "plot", "check", "scenario", "strategies"])
+    def test_every_command_has_help(self, capsys, command):
+        code, out, _ = shoal(capsys, command, "--help")
+        assert code == 0
+        assert command in out
+
+
+class TestSweep:
+    def test_dry_run_prints_the_design_and_runs_nothing(self, capsys):
+        code, out, _ = shoal(capsys, "sweep", "oceans2020", "--vary", "neighbors=10,20", "--steps", 100, "--dry-run")
+        assert code == 0
+        assert out.splitlines()[:2] == ["neighbors=10", "neighbors=20"]
+        assert "2 combinations x 5 runs = 10 runs" in out
+        assert not list(Path().iterdir())
+
+    def test_sweep_results_and_plot(self, capsys):
+        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install 'shoal[plots]'")
+        vary = ("--vary", "neighbors=10,20", "--vary", "fast=0,15")
+        assert shoal(capsys, "sweep", "oceans2020", *vary, "--runs", 2, "--steps", 100, "--out", "s")[0] == 0
+        assert "time on target" in shoal(capsys, "results", "s")[1]
+        assert len(json.loads(shoal(capsys, "results", "s", "--json")[1])) == 8
+        assert len(json.loads(shoal(capsys, "results", "s", "--by", "fast", "--json")[1])) == 2
+        assert shoal(capsys, "results", "s", "--csv")[1] == Path("s/results.csv").read_text()
+        assert shoal(capsys, "plot", "s")[0] == 0
+        assert Path("s/plot.png").exists()
+        assert "is no metric" in shoal(capsys, "plot", "s", "--y", "fun")[2]
+
+
+class TestTracks:
+    """Real files, beside the repository."""
+
+    def test_a_real_ferry(self, capsys):
+        file = SHARED / "solent" / "solent_ais_2016-01-12.csv"
+        if not file.is_file():
+            pytest.skip("the real AIS data is not beside this repository")
+        code, out, _ = shoal(
+            capsys, "run", "oceans2020", "--target-track", file, "--track-id", "mmsi=235069877", "--steps", 2000,
+            "--set", "time_step=2.5", "--out", "ferry", "--figure", "ferry.png", "--json",
+        )  # fmt: skip
+        assert code == 0
+        scenario = json.loads(Path("ferry/record.json").read_text())["scenario"]
+        factor = scenario["area"]["width"] / 20
+        assert 5000 < scenario["area"]["width"] < 20000
+        assert scenario["targets"][0]["radius"] == pytest.approx(factor)
+        assert scenario["strategy"]["repulsion_max"] == pytest.approx(1.5 * factor)
+        assert [fleet["max_speed"] for fleet in scenario["fleets"]] == [2.6, 1.0]
+        assert json.loads(out)["target_present"]["mean"] > 0.9
+
+    def test_a_real_drifter_with_gaps(self, capsys):
+        file = SHARED / "mab" / "mab_drifters_uscg_sldmb.csv"
+        if not file.is_file():
+            pytest.skip("the real drifter data is not beside this repository")
+        code, out, err = shoal(
+            capsys, "run", "oceans2020", "--target-track", file, "--track-id", "drifter_id=8213480", "--steps", 3000,
+            "--set", "time_step=700", "--json",
+        )  # fmt: skip
+        assert code == 0
+        assert 0.5 < json.loads(out)["target_present"]["mean"] < 0.9
+        assert "silence" in err
+
+
+class TestProcess:
+    def test_help_loads_no_compiler(self):
+        script = (
+            "import sys; from shoal.cli.main import run_command; run_command(['--help']); print('numba' in sys.modules)"
+        )
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+        assert done.stdout.splitlines()[-1] == "False"
+
+    def test_ctrl_c_exits_with_130_within_a_second_and_leaves_nothing(self, tmp_path):
+        process = subprocess.Popen(
+            [sys.executable, "-m", "shoal", "run", "oceans2020", "--steps", "50000000", "--out", str(tmp_path / "r")],
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True,
+        )  # fmt: skip
+        while not (tmp_path / "r.partial").exists():
+            time.sleep(0.1)
+        time.sleep(2.0)
+        asked = time.monotonic()
+        os.killpg(process.pid, signal.SIGINT)
+        _, said = process.communicate(timeout=30)
+        assert time.monotonic() - asked < 2.0
+        assert process.returncode == 130
+        assert "Traceback" not in said
+        assert list(tmp_path.iterdir()) == []
+
+
+@pytest.fixture(autouse=True)
+def _own_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
