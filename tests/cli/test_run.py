@@ -199,7 +199,7 @@ class TestTracks:
         )  # fmt: skip
         assert code == 0
         assert 0.5 < json.loads(out)["target_present"]["mean"] < 0.9
-        assert "silence" in err
+        assert "Silences longer than" in err
 
 
 class TestProcess:
