@@ -24,7 +24,7 @@ class TestAgents:
     def test_every_buoy_of_a_fleet_is_drawn_where_it_was(self, axes, make_record, marks):
         record = make_record(counts=(3, 2))
         draw_snapshot(axes, record)
-        fast, slow = (marks(axes, f"fleet-{fleet}")[0].get_offsets() for fleet in (0, 1))
+        fast, slow = (np.asarray(marks(axes, f"fleet-{fleet}")[0].get_offsets()) for fleet in (0, 1))
         assert np.concatenate([fast, slow])[:, 0] == pytest.approx(record.trajectories[0].x[-1])
 
     def test_the_faster_fleet_is_bigger(self, axes, make_record, marks):
@@ -42,8 +42,10 @@ class TestAgents:
         assert fast.get_linewidths()[0] > fast.get_linewidths()[1]
 
     def test_links_are_drawn_when_asked_for(self, axes, make_record, marks):
-        draw_snapshot(axes, make_record(), links=True)
-        assert len(marks(axes, "links")[0].get_segments()) == 4  # five in a row, each hears a neighbor
+        record = make_record(counts=(3, 2))
+        record.scenario["network"]["neighbors"] = 4
+        draw_snapshot(axes, record, links=True)
+        assert len(marks(axes, "links")[0].get_segments()) == 10  # all pairs of five
 
     def test_no_links_otherwise(self, axes, make_record, marks):
         draw_snapshot(axes, make_record())

@@ -16,7 +16,9 @@ from shoal.paper.figures_series import (
     levels,
     plain_rows,
     seeds_text,
+    sentence,
     series,
+    show_means,
     speed_text,
     spread,
     swarm_text,
@@ -56,16 +58,17 @@ def share_figure(rows: Sequence[Row], name: str, title: str, quantities: Sequenc
             axes = panels[i, j]
             for k, color, marker in zip(ks, colors, _MARKERS, strict=False):
                 points = series(where(rows, neighbors=k, target_speed=speed), "fast", quantity)
-                curve(axes, points, f"k = {k}", color, marker, 100 / AGENTS)
+                curve(axes, points, f"k = {k}", color, marker, 100 / AGENTS, bold=k == _PAPER_K)
                 data += points.rows("fast", quantity, neighbors=k, target_speed=speed)
             _label_panel(axes, i, j, quantity, speed)
             axes.set_xticks(range(0, 101, 20))
+            show_means(panels[i, 0], [row for row in data if row["quantity"] == quantity.name])
         for axes in panels[-1]:
             axes.set_xlabel("share of fast buoys [%]")
         handles, labels = panels[0, 0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside upper left", ncols=len(ks), borderaxespad=0.2)
     caption = (
-        f"{_sentence(quantities)} of a swarm of {AGENTS} buoys against its share of fast ones, at "
+        f"{sentence(quantities)} of a swarm of {AGENTS} buoys against its share of fast ones, at "
         f"{_several('k', ks)}, for {_speeds(speeds)}. {seeds_text(rows)} Seeds are shared by all points, so that "
         "differences between points are surer than their bands suggest."
     )
@@ -103,12 +106,12 @@ def k_figure(rows: Sequence[Row], name: str, title: str, quantity: Quantity, sym
             _label_panel(panels[j], 0, j, quantity, speed)
             panels[j].set_xlabel("number of neighbors k")
             panels[j].set_xticks([2, 10, 20, 30, 40, 49])
+        show_means(panels[0], [row for row in data if "height" not in row])
         _draw_peaks(peaks)
         figure.draw_without_rendering()  # panels take their places
-        for axes in panels:
-            headroom(axes, axes.get_legend_handles_labels()[1])
+        _legends_above(panels)
     caption = (
-        f"{quantity.name.capitalize()} of the {_several('swarm', [swarm_text(fast) for fast in swarms])} against the "
+        f"{sentence([quantity])} of the {_several('swarm', [swarm_text(fast) for fast in swarms])} against the "
         f"number of neighbors k that a buoy listens to, for {_speeds(speeds)}. Dotted lines lead from each peak to "
         f"its place {symbol} with its 95 % interval, at the bottom. {seeds_text(rows)}"
     )
@@ -146,6 +149,13 @@ def _draw_peaks(peaks: list[tuple["Axes", str, str, Peak]]) -> None:
     axes.set_yticks(ticks)
 
 
+def _legends_above(panels: Sequence["Axes"]) -> None:
+    """A legend in each panel, above the data; panels share their y axis, so room is made once."""
+    headroom(panels[0], panels[0].get_legend_handles_labels()[1])
+    for axes in panels[1:]:
+        axes.legend(loc="upper left", ncols=1, borderaxespad=0.1, borderpad=0.2)
+
+
 def _label_panel(axes: "Axes", row: int, column: int, quantity: Quantity, speed: float) -> None:
     axes.grid(visible=True)
     if row == 0:
@@ -158,16 +168,11 @@ def _shades(count: int) -> list[Any]:
     """Colors from dark to light, for values in order."""
     from matplotlib import colormaps
 
-    return [colormaps["viridis"](share) for share in np.linspace(0.0, 0.85, count)]
+    return [colormaps["viridis"](share) for share in np.linspace(0.0, 0.78, count)]
 
 
 def _pairs(rows: Sequence[Any], columns: Sequence[Any]) -> list[tuple[tuple[int, Any], tuple[int, Any]]]:
     return [(row, column) for row in enumerate(rows) for column in enumerate(columns)]
-
-
-def _sentence(quantities: Sequence[Quantity]) -> str:
-    text = " and ".join(quantity.name for quantity in quantities)
-    return text[0].upper() + text[1:]
 
 
 def _several(noun: str, values: Sequence[Any]) -> str:

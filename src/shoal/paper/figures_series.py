@@ -100,14 +100,28 @@ def series(rows: Iterable[Row], x: str, quantity: Quantity) -> Series:
     )
 
 
-def curve(axes: "Axes", points: Series, label: str, color: str, marker: str, x_factor: float = 1.0) -> None:
+def curve(axes: "Axes", points: Series, label: str, color: str, marker: str, x_factor: float = 1.0, *, bold: bool = False) -> None:
     """Draw a series with its band and a marker per cell; a single point gets its interval as a bar."""
     x = x_factor * np.array(points.x)
     draw_band(axes, x, points.mean, points.low, points.high, "", color)
     if len(x) == 1:
         axes.vlines(x, points.low, points.high, color=color, linewidth=1.4)
-    axes.plot(x, points.mean, marker, color=color, markersize=3.2, markeredgewidth=0, zorder=3)
-    axes.plot([], [], f"{marker}-", color=color, markersize=4, markeredgewidth=0, label=label)  # for the legend
+    axes.lines[-1].set_linewidth(2.2 if bold else 1.3)
+    axes.plot(x, points.mean, marker, color=color, markersize=4.2 if bold else 3.2, markeredgewidth=0, zorder=3)
+    axes.plot(
+        [], [], f"{marker}-", color=color, markersize=4.5, markeredgewidth=0, linewidth=2.2 if bold else 1.3, label=label
+    )  # for the legend
+
+
+def show_means(axes: "Axes", rows: Iterable[Row]) -> None:
+    """Fit the y axis to the means; bands, very wide with two seeds, may reach out of the panel."""
+    rows = list(rows)
+    means = np.array([row["mean"] for row in rows])
+    pad = max(0.3 * float(np.ptp(means)), 0.02 * float(np.abs(means).max()), 1e-9)
+    bottom, top = means.min() - pad, means.max() + pad
+    bottom = max(bottom, min(float(np.nanmin([row["low"] for row in rows] + [means.min()])) - 0.1 * pad, means.min() - 0.1 * pad))
+    top = min(top, max(float(np.nanmax([row["high"] for row in rows] + [means.max()])) + 0.1 * pad, means.max() + 0.1 * pad))
+    axes.set_ylim(bottom, top)
 
 
 def spread(values: Sequence[Any], most: int, keep: Any = None) -> list[Any]:
@@ -120,6 +134,12 @@ def spread(values: Sequence[Any], most: int, keep: Any = None) -> list[Any]:
         chosen -= {min(inner, key=lambda value: abs(value - keep))}
         chosen |= {keep}
     return sorted(chosen)
+
+
+def sentence(quantities: Sequence[Quantity]) -> str:
+    """Their names, as a sentence begins."""
+    text = " and ".join(quantity.name for quantity in quantities)
+    return text[0].upper() + text[1:]
 
 
 def speed_text(speed: float) -> str:

@@ -20,14 +20,14 @@ def draw_phi_histogram(axes: "Axes", record: Record) -> None:
     """
     from matplotlib.ticker import MaxNLocator
 
-    histogram = record.phi_histogram()  # (F, 11)
     middle = (CENTERS[:-1] + CENTERS[1:]) / 2
     edges = np.concatenate([[-1.0], middle, [1.0]])
     _label(axes)
-    if not np.isfinite(histogram).all():
+    if not all(tally.present.any() for tally in record.tallies):
         axes.set_yticks([])
         axes.text(0.5, 0.5, "no target was ever there", transform=axes.transAxes, ha="center", color=GRAY)
         return
+    histogram = record.phi_histogram()  # (F, 11)
     base = np.zeros(CENTERS.size)
     for fleet, heights in enumerate(histogram):
         axes.bar(

@@ -1,0 +1,133 @@
+"""Histograms of the heading-bearing correlation phi: k and target speed down, mixed and all-slow swarm across."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.metrics.heading_bearing import CENTERS
+from shoal.paper.figures_series import (
+    AGENTS,
+    ALL_SLOW,
+    DOUBLE,
+    MIXED,
+    Quantity,
+    levels,
+    plain_rows,
+    series,
+    spread,
+    swarm_text,
+    where,
+)
+from shoal.paper.results import Figure, Row
+from shoal.record.statistics import estimate
+from shoal.viz.style import INK, fleet_color, new_figure, style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_MOST_K = 3
+_PAPER_K = 20
+_FLEETS = ("fast (BoB-1)", "slow (BoB-0)")
+_STATIONARY = Quantity("stationary", "stationary agents", "%", 100.0)
+_MIDDLE = (CENTERS[:-1] + CENTERS[1:]) / 2
+EDGES = np.concatenate([[-1.0], _MIDDLE, [1.0]])
+
+
+def phi_figure(rows: Sequence[Row]) -> Figure | None:
+    """Draw mean agents per step over phi, fleets stacked, for up to three k and all target speeds.
+
+    Returns None where no cell of the two swarms has a histogram.
+    """
+    known = [row for row in plain_rows(rows) if row.get("phi_histogram") and row["fast"] in (MIXED, ALL_SLOW)]
+    swarms = [fast for fast in (MIXED, ALL_SLOW) if where(known, fast=fast)]
+    ks = spread(_common_ks(known, swarms), _MOST_K, _PAPER_K)
+    lines = [(k, speed) for k in ks for speed in levels(where(known, neighbors=k), "target_speed")]
+    if not lines:
+        return None
+    data: list[Row] = []
+    with style():
+        figure = new_figure(DOUBLE, 0.95 + 1.12 * len(lines))
+        figure.set_layout_engine("constrained", h_pad=0.03, w_pad=0.06)
+        panels = figure.subplots(len(lines), len(swarms), squeeze=False, sharex=True, sharey=True)
+        for i, (k, speed) in enumerate(lines):
+            for j, fast in enumerate(swarms):
+                labels = {"fast": fast, "neighbors": k, "target_speed": speed}
+                data += _draw_panel(panels[i, j], where(known, **labels), labels)
+            panels[i, 0].set_ylabel(f"k = {k}\n{speed:g} m/s", rotation=0, ha="right", va="center", labelpad=6)
+        for axes, fast in zip(panels[0], swarms, strict=True):
+            axes.set_title(swarm_text(fast).capitalize())
+        for axes in panels[-1]:
+            _label_phi(axes)
+        figure.supylabel("mean agents per step", fontsize=8.5)
+        handles, names = _legend(panels[0, 0])
+        figure.legend(handles, names, loc="outside upper right", ncols=len(names), borderaxespad=0.2)
+    return Figure("phi_histograms", "Where agents head: heading\u2013bearing correlation φ", _caption(known), figure, data)
+
+
+def _common_ks(rows: Sequence[Row], swarms: Sequence[int]) -> list[Any]:
+    """The k that both swarms were run with, or, if there is none, all."""
+    each = [set(levels(where(rows, fast=fast), "neighbors")) for fast in swarms]
+    return sorted(set.intersection(*each) or set.union(*each)) if each else []
+
+
+def _draw_panel(axes: "Axes", cell: Sequence[Row], labels: dict[str, Any]) -> list[Row]:
+    """Bars of the fleets on each other, the interval of their sum, and how many agents are stationary."""
+    axes.grid(axis="y")
+    if not cell:
+        return []
+    fleets = _by_fleet(cell, labels["fast"])
+    base: npt.NDArray[np.float64] = np.zeros(CENTERS.size)
+    data: list[Row] = []
+    for fleet, heights in fleets.items():
+        axes.bar(
+            EDGES[:-1], heights, np.diff(EDGES), base, align="edge", color=fleet_color(fleet), edgecolor="white",
+            linewidth=0.5, label=_FLEETS[fleet],
+        )  # fmt: skip
+        base = base + heights
+        data += [{**labels, "agents": _FLEETS[fleet], "phi": round(at, 3), "unit": "agents per step", "mean": height,
+                  "runs": len(cell)} for at, height in zip(CENTERS.tolist(), heights.tolist(), strict=True)]  # fmt: skip
+    totals = [estimate(values) for values in np.array([row["phi_histogram"] for row in cell]).T]
+    for left, right, at, total in zip(EDGES[:-1], EDGES[1:], CENTERS.tolist(), totals, strict=True):
+        low, high = total.ci95 or (np.nan, np.nan)
+        axes.vlines((left + right) / 2, low, high, color=INK, linewidth=0.9)
+        data.append({**labels, "agents": "all", "phi": round(at, 3), "unit": "agents per step", "mean": total.mean,
+                     "low": low, "high": high, "runs": len(cell)})  # fmt: skip
+    still = series(cell, "neighbors", _STATIONARY)
+    if still.mean:
+        axes.text(0.02, 0.9, f"{still.mean[0]:.1f} % stationary", transform=axes.transAxes, va="top", fontsize=8)
+        data += still.rows("neighbors", _STATIONARY, **labels, agents="all")
+    return data
+
+
+def _by_fleet(cell: Sequence[Row], fast: int) -> dict[int, npt.NDArray[np.float64]]:
+    """Mean histogram of each fleet, by its number in the preset (0 fast, 1 slow)."""
+    mean = np.mean([row["fleet_phi_histogram"] for row in cell], axis=0)
+    numbers = [fleet for fleet, count in enumerate((fast, AGENTS - fast)) if count]
+    return dict(zip(numbers, mean, strict=True))
+
+
+def _label_phi(axes: "Axes") -> None:
+    axes.set_xlim(-1.02, 1.02)
+    axes.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
+    axes.set_xticklabels(["\u22121\naway", "\u22120.5", "0\nstill or across", "0.5", "1\ntoward"])
+    axes.set_xlabel("heading\u2013bearing correlation φ")
+
+
+def _legend(axes: "Axes") -> tuple[list[Any], list[str]]:
+    from matplotlib.lines import Line2D
+
+    handles, names = axes.get_legend_handles_labels()
+    return [*handles, Line2D([], [], color=INK, linewidth=0.9)], [*names, "95 % interval"]
+
+
+def _caption(rows: Sequence[Row]) -> str:
+    seeds = len({row.get("run") for row in rows})
+    return (
+        "How many agents head away from the target (φ = −1), toward it (φ = 1), or neither: mean agents per step, all "
+        "bars of a panel summing to 50; the two outer bins are half as wide as the others. Left the mixed swarm, right "
+        "the all-slow one; rows are numbers of neighbors k and target speeds. Agents slower than a tenth of their top "
+        "speed count as stationary, at φ = 0, where the bar also holds those that move across. "
+        + (f"Black lines: 95 % interval of the sum over {seeds} seeds." if seeds > 1 else "One seed: no intervals.")
+    )

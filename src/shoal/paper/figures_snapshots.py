@@ -1,0 +1,150 @@
+"""The paper's two pictures of the swarm: agents locked in place, and fast buoys together and apart again."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from shoal.paper.figures_series import DOUBLE
+from shoal.paper.results import Figure, Row
+from shoal.paper.snapshots import Clustering, Locked, find_clustering, find_locked
+from shoal.record.record import Record
+from shoal.viz.snapshot import draw_snapshot
+from shoal.viz.style import FLEET_COLORS, GRAY, INK, new_figure, style
+from shoal.viz.words import count
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_RUN = 0
+_TRAIL = 30  # steps of the target's trail, a third of it for the buoys'
+_AROUND = 300  # steps of the distance shown before and after the two moments
+_EDGE = 1e-6  # [m] from the line that agents are kept inside of
+
+
+def locked_figure(record: Record) -> Figure:
+    """Draw the frame with the most locked agents, each in a square."""
+    found = find_locked(record, _RUN)
+    frames = record.trajectories[_RUN]
+    x, y = frames.x[found.frame], frames.y[found.frame]
+    with style():
+        width, height = 4.6, 5.5
+        figure = new_figure(width, height)
+        axes = figure.add_axes((0.62 / width, 0.87 / height, 3.85 / width, 3.85 / height))
+        draw_snapshot(axes, record, _RUN, found.frame, trail=_TRAIL)
+        looks = ((found.pushing & ~found.locked, GRAY, 0.6, "strongest repulsion, moving"),
+                 (found.locked, INK, 1.2, "strongest repulsion, locked"))  # fmt: skip
+        marks = [
+            axes.scatter(x[who], y[who], s=115, marker="s", facecolors="none", edgecolors=color, linewidths=line,
+                         label=label, zorder=6, clip_on=False)
+            for who, color, line, label in looks
+        ]  # fmt: skip
+        figure.legend(handles=marks[::-1], loc="lower left", bbox_to_anchor=(0.1, 0.0), ncols=1, borderaxespad=0.2)
+    data = _frame_rows(record, found.frame, {}, locked=found.locked, pushing=found.pushing)
+    return Figure("locked", "Agents locked in place", _locked_caption(record, found), figure, data)
+
+
+def clustering_figure(record: Record) -> Figure:
+    """Draw the fast buoys at their closest and apart again, and their mean distance around these moments."""
+    found = find_clustering(record, _RUN)
+    apart = found.apart if found.apart is not None else len(found.distance) - 1
+    data: list[Row] = []
+    with style():
+        height = 5.55
+        figure = new_figure(DOUBLE, height)
+        for number, (frame, name) in enumerate(((found.together, "together"), (apart, "apart again"))):
+            left = 0.55 + 3.55 * number
+            axes = figure.add_axes((left / DOUBLE, 1.72 / height, 3.0 / DOUBLE, 3.0 / height))
+            draw_snapshot(axes, record, _RUN, frame, trail=_TRAIL)
+            figure.text(left / DOUBLE, (height - 0.2) / height, f"{'AB'[number]}  Fast buoys {name}",
+                        fontsize=9.5, fontweight="bold", va="center")  # fmt: skip
+            axes.set_title(axes.get_title(loc="left"), fontsize=8.5, fontweight="normal", pad=20)
+            data += _frame_rows(record, frame, {"panel": name})
+        strip = figure.add_axes((0.55 / DOUBLE, 0.45 / height, (DOUBLE - 0.65) / DOUBLE, 0.72 / height))
+        data += _draw_distance(strip, record, found, apart)
+    return Figure(
+        "clustering", "Fast buoys cluster and disperse", _clustering_caption(record, found, apart), figure, data
+    )
+
+
+def _draw_distance(axes: "Axes", record: Record, found: Clustering, apart: int) -> list[Row]:
+    """Mean distance among the fast buoys over time, the two moments marked, and its median over the run."""
+    step = np.asarray(record.trajectories[_RUN].step)
+    window = slice(max(0, found.together - _AROUND), min(len(step), apart + _AROUND))
+    axes.plot(step[window], found.distance[window], color=FLEET_COLORS[0], linewidth=1.2)
+    axes.axhline(found.median, color=GRAY, linewidth=0.8, linestyle=(0, (4, 3)))
+    axes.annotate("median of the run", (1.0, found.median), (-2, 2), xycoords=("axes fraction", "data"),
+                  textcoords="offset points", ha="right", va="bottom", fontsize=8, color=GRAY)  # fmt: skip
+    for frame, name in ((found.together, "A"), (apart, "B")):
+        axes.plot([step[frame]], [found.distance[frame]], "o", color=INK, markersize=4.5)
+        axes.annotate(name, (step[frame], found.distance[frame]), (5, -3), textcoords="offset points",
+                      fontweight="bold", va="top")  # fmt: skip
+    axes.set_xlim(step[window][0], step[window][-1])
+    axes.set_ylim(0.0, 1.15 * float(found.distance[window].max()))
+    axes.set_xlabel("step")
+    axes.set_ylabel("distance [m]")
+    axes.grid(visible=True)
+    rows = zip(step[window].tolist(), found.distance[window].tolist(), strict=True)
+    return [
+        *({"panel": "distance", "step": at, "mean_distance_fast [m]": value} for at, value in rows),
+        {"panel": "distance", "what": "median of the run", "mean_distance_fast [m]": found.median},
+    ]
+
+
+def _frame_rows(record: Record, frame: int, labels: dict[str, Any], **flags: Any) -> list[Row]:
+    """What a snapshot shows, one row per agent, target and point of a trail."""
+    frames, facts = record.trajectories[_RUN], record.facts
+    fleets = np.repeat(facts.fleets, facts.counts)
+    rows: list[Row] = []
+    for at in range(max(0, frame - _TRAIL), frame + 1):
+        time = {**labels, "step": int(frames.step[at]), "what": "trail" if at < frame else "moment"}
+        x, y = float(frames.target_x[at, 0]), float(frames.target_y[at, 0])
+        rows.append({**time, "who": "target", "x [m]": x, "y [m]": y})
+        for i, fleet in enumerate(fleets.tolist()) if at >= frame - _TRAIL // 3 else ():
+            row = {**time, "who": f"agent {i}", "fleet": fleet,
+                   "x [m]": float(frames.x[at, i]), "y [m]": float(frames.y[at, i])}  # fmt: skip
+            if at == frame:
+                speed = float(np.hypot(frames.vx[at, i], frames.vy[at, i]))
+                row |= {"speed [m/s]": speed, "on_target": bool(frames.on_target[at, i])}
+                row |= {"a_R [m]": float(frames.memory["repulsion"][at, i])}
+                row |= {name: bool(values[i]) for name, values in flags.items()}
+            rows.append(row)
+    return rows
+
+
+def _locked_caption(record: Record, found: Locked) -> str:
+    frames, area = record.trajectories[_RUN], record.scenario["area"]
+    limit = area["width"] / 2 - area["agent_margin"] - _EDGE
+    at_edge = np.maximum(np.abs(frames.x[found.frame]), np.abs(frames.y[found.frame])) >= limit
+    locked, on_target = int(found.locked.sum()), int(frames.on_target[found.frame].sum())
+    return (
+        f"{_swarm(record)}. Squares: buoys that have heard of no target for so long that their repulsion a_R is at its "
+        f"maximum; {locked} of these {int(found.pushing.sum())} are locked (dark squares: slower than a tenth of their "
+        f"top speed), {int((found.locked & at_edge).sum())} of them at the dashed line that no buoy crosses, while "
+        f"{on_target} {'is' if on_target == 1 else 'are'} on target. Of {count(frames.step.size)} steps this is the "
+        "first with the most locked buoys while others are on target. "
+        f"Lines: the last {_TRAIL} steps of the target, {_TRAIL // 3} of the buoys."
+    )
+
+
+def _clustering_caption(record: Record, found: Clustering, apart: int) -> str:
+    seconds = (apart - found.together) * record.facts.time_step
+    later = (
+        f"B: the first later step with that distance above its median over the run, {found.median:.1f} m; this takes "
+        f"{seconds:.1f} s."
+        if found.apart is not None
+        else f"B: the last step; the distance is not back above its median over the run, {found.median:.1f} m."
+    )
+    return (
+        f"{_swarm(record)}. A: of {count(found.distance.size)} steps, the one with the smallest mean distance among the "
+        f"fast buoys while somebody is on target, {found.distance[found.together]:.1f} m. {later} Below, that distance "
+        "over time."
+    )
+
+
+def _swarm(record: Record) -> str:
+    facts, scenario = record.facts, record.scenario
+    fleets = " and ".join(f"{n} {name}" for n, name in zip(facts.counts, facts.fleets, strict=True))
+    return (
+        f"A swarm of {fleets} tracks a target of {scenario['targets'][0]['speed']:g} m/s at "
+        f"k = {scenario['network']['neighbors']} (seed {scenario['seed']})"
+    )

@@ -1,0 +1,113 @@
+"""What a reproduction runs: one sweep per group of runs, in full or quick."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from shoal.experiments.design import Design, Point, grid
+
+PAPERS = ("oceans2020", "aamas2020")
+FULL_STEPS, QUICK_STEPS = 100_000, 20_000
+SPEEDS = (3.0, 5.0)  # of the target [m/s]
+MIXED = 15  # fast buoys of the paper's mixed swarm, of 50
+SHARE_NEIGHBORS = (10, 20, 30, 40)
+START_PLACES = ("corner", "center")
+
+_NEIGHBORS = (*range(2, 14, 2), *range(14, 31), 32, 34, 36, 38, 40, 42, 44, 46, 48, 49)
+_NEIGHBORS_QUICK = (2, 6, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30, 34, 40, 49)
+_SENSITIVITY_NEIGHBORS = (8, 12, 15, 18, 21, 24, 27, 30, 35, 42)
+_SENSITIVITY_NEIGHBORS_QUICK = (8, 14, 18, 22, 26, 30, 36)
+_PUBLISHED_NEIGHBORS = tuple(range(10, 50, 3))
+
+# What the paper leaves open (docs/paper-notes.md), each decided the other way.
+VARIANTS: dict[str, Point] = {
+    "baseline": {},
+    "omega 0.5": {"strategy.inertia": 0.5},
+    "delta 0.005": {"strategy.delta": 0.005},
+    "delta 0.02": {"strategy.delta": 0.02},
+    "shrink 2 delta": {"strategy.shrink": 2.0},
+    "sequential update": {"motion.update_order": "sequential"},
+    "follow lowest index": {"strategy.follow": "lowest-index"},
+    "boundary 10": {"area.agent_margin": 0.0},
+    "speed divided": {"motion.speed_rule": "divide"},
+    "r per axis": {"strategy.social_draws": "per-axis"},
+    "start in a corner": {"fleets.BoB-0.start": "corner", "fleets.BoB-1.start": "corner"},
+}
+
+
+@dataclass(frozen=True)
+class Group:
+    """One sweep and its store; `labels` are columns that all its rows get."""
+
+    name: str
+    design: Design
+    changes: Point
+    labels: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All runs of a reproduction."""
+
+    paper: str
+    quick: bool
+    steps: int
+    seeds: int
+    groups: tuple[Group, ...]
+
+
+def make_plan(paper: str, *, quick: bool = False) -> Plan:
+    """Return the plan of one of PAPERS.
+
+    Raises
+    ------
+    KeyError : another paper
+    """
+    steps, seeds = (QUICK_STEPS, 2) if quick else (FULL_STEPS, 5)
+    groups = {"oceans2020": _oceans2020, "aamas2020": _aamas2020}[paper](quick, steps, seeds)
+    return Plan(paper, quick, steps, seeds, tuple(groups))
+
+
+def _oceans2020(quick: bool, steps: int, seeds: int) -> list[Group]:
+    """The curves over k and over the share of fast buoys; other starts of the fast fleet; and every variant."""
+    fast = range(0, 51, 10) if quick else range(0, 51, 5)
+    main = [
+        *_curves(_NEIGHBORS_QUICK if quick else _NEIGHBORS, SPEEDS),
+        *grid({"target_speed": SPEEDS, "fast": [*fast, MIXED], "neighbors": SHARE_NEIGHBORS}),
+    ]
+    placement = grid({"target_speed": SPEEDS, "fast": [MIXED], "neighbors": [20], "fleets.BoB-1.start": START_PLACES})
+    return [
+        Group("main", Design("oceans2020", _distinct(main), seeds), {"steps": steps}),
+        Group("placement", Design("oceans2020", _distinct(placement), seeds), {"steps": steps}),
+        *_variants(_SENSITIVITY_NEIGHBORS_QUICK if quick else _SENSITIVITY_NEIGHBORS, steps, min(seeds, 3)),
+    ]
+
+
+def _aamas2020(quick: bool, steps: int, seeds: int) -> list[Group]:
+    """The predecessor's curves over k, with adaptive and with constant repulsion."""
+    points = _distinct(grid({"neighbors": _PUBLISHED_NEIGHBORS}))
+    presets = ("aamas2020", "aamas2020-constant")
+    return [Group(name, Design(name, points, seeds), {"steps": steps}, {"preset": name}) for name in presets]
+
+
+def _variants(neighbors: Sequence[int], steps: int, seeds: int) -> list[Group]:
+    """One group each: its change is to the base scenario, before `fast` = 0 removes a fleet."""
+    points = _distinct(_curves(neighbors, SPEEDS[:1]))
+    return [
+        Group(
+            f"sensitivity/{name.replace(' ', '-')}",
+            Design("oceans2020", points, seeds),
+            {"steps": steps, **changes},
+            {"variant": name},
+        )
+        for name, changes in VARIANTS.items()
+    ]
+
+
+def _curves(neighbors: Sequence[int], speeds: Sequence[float]) -> list[Point]:
+    """The mixed and the all-slow swarm over k."""
+    return grid({"target_speed": speeds, "fast": [MIXED, 0], "neighbors": neighbors})
+
+
+def _distinct(points: Sequence[Point]) -> tuple[Point, ...]:
+    return tuple({tuple(point.items()): point for point in points}.values())

@@ -1,0 +1,28 @@
+"""A swarm that nothing moves but its own inertia, in front of targets that stay: closed forms for the metrics."""
+
+import numpy as np
+
+from scenarios import fleets, scenario
+from shoal.simulation import Simulation
+
+
+def coasting(places, velocities, targets=((0.0, 0.0),), makes=None, radius=1.0, **changes):
+    """Agents of 1 m/s that go on as they are; velocities [m/s]."""
+    places, velocities = np.array(places, float), np.array(velocities, float)
+    chosen = scenario(
+        "oceans2020",
+        {
+            "fleets": fleets(*(makes or [(len(places), 1.0)])),
+            "network.neighbors": 1,
+            "steps": 20,
+            "area.agent_margin": 0.0,
+            "strategy.social": 0.0,
+            "strategy.repulsion_step": 0.0,
+            "targets": [{"kind": "still", "x": x, "y": y, "radius": radius} for x, y in targets],
+            **changes,
+        },
+    )
+    simulation, n = Simulation(chosen), len(places)
+    simulation.swarm.x[:n], simulation.swarm.y[:n] = places.T
+    simulation.swarm.vx[:n], simulation.swarm.vy[:n] = velocities.T
+    return simulation

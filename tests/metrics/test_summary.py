@@ -1,0 +1,96 @@
+"""From sums to numbers."""
+
+import numpy as np
+import pytest
+
+from shoal.metrics.summary import (
+    METRICS,
+    Facts,
+    evaluate,
+    fleet_fluctuation,
+    fleet_stationary,
+    phi_histogram,
+)
+from shoal.metrics.tally import batch_of, new_tally
+
+FACTS = Facts(fleets=("fast", "slow"), counts=(10, 30), max_speeds=(2.0, 1.0), unit=2.0, time_step=0.5)
+
+
+@pytest.fixture
+def tally():
+    """Two batches of 100 steps; the target is there in 160 of 200."""
+    tally = new_tally(2, 2)
+    tally.steps[:] = 100
+    tally.present[:] = 100, 60
+    tally.on_target[:] = 80, 10
+    tally.engaged[:] = 160, 40
+    tally.fluctuation[:] = [[500, 1000], [300, 200]]
+    tally.histogram[:, 0, 10] = 1000, 600
+    tally.histogram[:, 1, 5] = 3000, 1800
+    tally.stationary[:] = [[0, 1500], [0, 900]]
+    return tally
+
+
+class TestFormulas:
+    """Over all steps, and over each batch of them."""
+
+    @pytest.mark.parametrize(
+        ("name", "mean", "batches"),
+        [
+            ("time_on_target", 90 / 160, (0.8, 1 / 6)),
+            ("engaged", 200 / 160, (1.6, 2 / 3)),
+            ("target_present", 0.8, (1.0, 0.6)),
+            ("xi_raw", 2000 / 200 / 40, (15 / 40, 5 / 40)),
+            ("xi", 2000 / 200 / 40 / 1.25, (15 / 50, 5 / 50)),
+            ("response", 10 * 0.5 / 2, (15 / 4, 5 / 4)),
+            ("stationary", 2400 / 160 / 40, (15 / 40, 15 / 40)),
+        ],
+    )
+    def test_by_hand(self, tally, name, mean, batches):
+        whole, parts = evaluate(name, tally, FACTS)
+        assert whole == pytest.approx(mean)
+        assert parts == pytest.approx(batches)
+
+    def test_every_metric_has_a_unit_and_a_sentence(self):
+        assert all(metric.unit and metric.sentence for metric in METRICS.values())
+
+    def test_a_batch_is_a_tally_of_its_own(self, tally):
+        second = batch_of(tally, 1)
+        assert second.on_target.tolist() == [10]
+        assert second.histogram.shape == (1, 2, 11)
+
+
+class TestByFleet:
+    """What the fleets share and what is their own."""
+
+    def test_the_histogram_is_in_agents_per_step_and_sums_to_all(self, tally):
+        histogram = phi_histogram(tally)
+        assert histogram.shape == (2, 11)
+        assert (histogram[0, 10], histogram[1, 5]) == (10.0, 30.0)
+        assert histogram.sum() == pytest.approx(FACTS.agents)
+
+    def test_stationary_shares(self, tally):
+        assert fleet_stationary(tally, FACTS).tolist() == [0.0, 0.5]
+
+    def test_fluctuations(self, tally):
+        assert fleet_fluctuation(tally, FACTS) == pytest.approx([800 / 200 / 10, 1200 / 200 / 30])
+
+    def test_fleets_weighted_by_their_counts_make_the_swarm(self, tally):
+        assert fleet_fluctuation(tally, FACTS) @ FACTS.counts / 40 == pytest.approx(evaluate("xi_raw", tally, FACTS)[0])
+        assert fleet_stationary(tally, FACTS) @ FACTS.counts / 40 == pytest.approx(
+            evaluate("stationary", tally, FACTS)[0]
+        )
+
+    def test_without_a_target_there_is_no_number(self, tally):
+        tally.present[:] = 0
+        assert np.isnan(phi_histogram(tally)).all()
+        assert np.isnan(fleet_stationary(tally, FACTS)).all()
+        assert not np.isnan(fleet_fluctuation(tally, FACTS)).any()
+
+
+class TestFacts:
+    """Scales."""
+
+    def test_the_mean_top_speed_is_of_agents_not_of_fleets(self):
+        assert FACTS.mean_max_speed == pytest.approx((10 * 2.0 + 30 * 1.0) / 40)
+        assert FACTS.agents == 40
