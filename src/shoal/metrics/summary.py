@@ -84,7 +84,7 @@ def phi_histogram(tally: Tally) -> Floats:
     """Mean agents per step in each bin of phi, by fleet: (F, 11); the bins of all fleets sum to N."""
     present = tally.present.sum()
     sums: Floats = tally.histogram.sum(axis=0)
-    return sums / present if present > 0 else np.full_like(sums, np.nan)
+    return sums / present if present > 0 else np.full(sums.shape, np.nan)
 
 
 def fleet_fluctuation(tally: Tally, facts: Facts) -> Floats:

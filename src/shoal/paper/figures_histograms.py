@@ -16,7 +16,6 @@ from shoal.paper.figures_series import (
     levels,
     plain_rows,
     series,
-    spread,
     swarm_text,
     where,
 )
@@ -27,8 +26,7 @@ from shoal.viz.style import INK, fleet_color, new_figure, style
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_MOST_K = 3
-_PAPER_K = 20
+_WANTED_K = (10, 20, 40)
 _FLEETS = ("fast (BoB-1)", "slow (BoB-0)")
 _STATIONARY = Quantity("stationary", "stationary agents", "%", 100.0)
 _MIDDLE = (CENTERS[:-1] + CENTERS[1:]) / 2
@@ -42,7 +40,7 @@ def phi_figure(rows: Sequence[Row]) -> Figure | None:
     """
     known = [row for row in plain_rows(rows) if row.get("phi_histogram") and row["fast"] in (MIXED, ALL_SLOW)]
     swarms = [fast for fast in (MIXED, ALL_SLOW) if where(known, fast=fast)]
-    ks = spread(_common_ks(known, swarms), _MOST_K, _PAPER_K)
+    ks = _shown_ks(_common_ks(known, swarms))
     lines = [(k, speed) for k in ks for speed in levels(where(known, neighbors=k), "target_speed")]
     if not lines:
         return None
@@ -63,13 +61,20 @@ def phi_figure(rows: Sequence[Row]) -> Figure | None:
         figure.supylabel("mean agents per step", fontsize=8.5)
         handles, names = _legend(panels[0, 0])
         figure.legend(handles, names, loc="outside upper right", ncols=len(names), borderaxespad=0.2)
-    return Figure("phi_histograms", "Where agents head: heading\u2013bearing correlation φ", _caption(known), figure, data)
+    return Figure(
+        "phi_histograms", "Where agents head: heading\u2013bearing correlation φ", _caption(known), figure, data
+    )
 
 
 def _common_ks(rows: Sequence[Row], swarms: Sequence[int]) -> list[Any]:
     """The k that both swarms were run with, or, if there is none, all."""
     each = [set(levels(where(rows, fast=fast), "neighbors")) for fast in swarms]
     return sorted(set.intersection(*each) or set.union(*each)) if each else []
+
+
+def _shown_ks(ks: Sequence[Any]) -> list[Any]:
+    """Low, the paper's and high connectivity, or what comes nearest."""
+    return sorted({min(ks, key=lambda k: abs(k - wanted)) for wanted in _WANTED_K}) if ks else []
 
 
 def _draw_panel(axes: "Axes", cell: Sequence[Row], labels: dict[str, Any]) -> list[Row]:

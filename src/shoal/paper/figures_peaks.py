@@ -10,12 +10,14 @@ from shoal.paper.results import Row
 
 @dataclass(frozen=True)
 class Peak:
-    """The k at which a curve peaks with its 95 % interval, and the height there in the unit of the figure."""
+    """The k at which a curve peaks, and the height there in the unit of the figure, with 95 % intervals."""
 
     x: float
     low: float
     high: float
     height: float
+    height_low: float
+    height_high: float
 
     @property
     def text(self) -> str:
@@ -33,4 +35,4 @@ def peak_of(rows: Sequence[Row], quantity: Quantity) -> Peak | None:
     if len(p.x) < 3:
         return None
     i = p.mean.index(max(p.mean))
-    return Peak(p.x[i], p.x[max(i - 1, 0)], p.x[min(i + 1, len(p.x) - 1)], p.mean[i])
+    return Peak(p.x[i], p.x[max(i - 1, 0)], p.x[min(i + 1, len(p.x) - 1)], p.mean[i], p.low[i], p.high[i])

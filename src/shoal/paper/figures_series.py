@@ -100,7 +100,9 @@ def series(rows: Iterable[Row], x: str, quantity: Quantity) -> Series:
     )
 
 
-def curve(axes: "Axes", points: Series, label: str, color: str, marker: str, x_factor: float = 1.0, *, bold: bool = False) -> None:
+def curve(
+    axes: "Axes", points: Series, label: str, color: str, marker: str, x_factor: float = 1.0, *, bold: bool = False
+) -> None:
     """Draw a series with its band and a marker per cell; a single point gets its interval as a bar."""
     x = x_factor * np.array(points.x)
     draw_band(axes, x, points.mean, points.low, points.high, "", color)
@@ -109,7 +111,14 @@ def curve(axes: "Axes", points: Series, label: str, color: str, marker: str, x_f
     axes.lines[-1].set_linewidth(2.2 if bold else 1.3)
     axes.plot(x, points.mean, marker, color=color, markersize=4.2 if bold else 3.2, markeredgewidth=0, zorder=3)
     axes.plot(
-        [], [], f"{marker}-", color=color, markersize=4.5, markeredgewidth=0, linewidth=2.2 if bold else 1.3, label=label
+        [],
+        [],
+        f"{marker}-",
+        color=color,
+        markersize=4.5,
+        markeredgewidth=0,
+        linewidth=2.2 if bold else 1.3,
+        label=label,
     )  # for the legend
 
 
@@ -119,8 +128,12 @@ def show_means(axes: "Axes", rows: Iterable[Row]) -> None:
     means = np.array([row["mean"] for row in rows])
     pad = max(0.3 * float(np.ptp(means)), 0.02 * float(np.abs(means).max()), 1e-9)
     bottom, top = means.min() - pad, means.max() + pad
-    bottom = max(bottom, min(float(np.nanmin([row["low"] for row in rows] + [means.min()])) - 0.1 * pad, means.min() - 0.1 * pad))
-    top = min(top, max(float(np.nanmax([row["high"] for row in rows] + [means.max()])) + 0.1 * pad, means.max() + 0.1 * pad))
+    bottom = max(
+        bottom, min(float(np.nanmin([row["low"] for row in rows] + [means.min()])) - 0.1 * pad, means.min() - 0.1 * pad)
+    )
+    top = min(
+        top, max(float(np.nanmax([row["high"] for row in rows] + [means.max()])) + 0.1 * pad, means.max() + 0.1 * pad)
+    )
     axes.set_ylim(bottom, top)
 
 

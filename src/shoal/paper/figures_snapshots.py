@@ -27,18 +27,21 @@ def locked_figure(record: Record) -> Figure:
     frames = record.trajectories[_RUN]
     x, y = frames.x[found.frame], frames.y[found.frame]
     with style():
-        width, height = 4.6, 5.5
+        width, height = 4.6, 5.2
         figure = new_figure(width, height)
-        axes = figure.add_axes((0.62 / width, 0.87 / height, 3.85 / width, 3.85 / height))
+        axes = figure.add_axes((0.62 / width, 0.73 / height, 3.85 / width, 3.85 / height))
         draw_snapshot(axes, record, _RUN, found.frame, trail=_TRAIL)
-        looks = ((found.pushing & ~found.locked, GRAY, 0.6, "strongest repulsion, moving"),
-                 (found.locked, INK, 1.2, "strongest repulsion, locked"))  # fmt: skip
-        marks = [
-            axes.scatter(x[who], y[who], s=115, marker="s", facecolors="none", edgecolors=color, linewidths=line,
-                         label=label, zorder=6, clip_on=False)
-            for who, color, line, label in looks
-        ]  # fmt: skip
-        figure.legend(handles=marks[::-1], loc="lower left", bbox_to_anchor=(0.1, 0.0), ncols=1, borderaxespad=0.2)
+        looks = (
+            (found.locked, INK, 1.2, "strongest repulsion, locked"),
+            (found.pushing & ~found.locked, GRAY, 0.6, "the same, moving"),
+        )
+        for who, color, line, label in looks:
+            axes.scatter(
+                x[who], y[who], s=115, marker="s", facecolors="none", edgecolors=color, linewidths=line, label=label,
+                zorder=6, clip_on=False,
+            )  # fmt: skip
+        handles, labels = axes.get_legend_handles_labels()
+        figure.legend(handles, labels, loc="lower left", bbox_to_anchor=(0.62 / width, 0.0), ncols=2, borderaxespad=0.3)
     data = _frame_rows(record, found.frame, {}, locked=found.locked, pushing=found.pushing)
     return Figure("locked", "Agents locked in place", _locked_caption(record, found), figure, data)
 
@@ -49,17 +52,22 @@ def clustering_figure(record: Record) -> Figure:
     apart = found.apart if found.apart is not None else len(found.distance) - 1
     data: list[Row] = []
     with style():
-        height = 5.55
+        height = 5.3
         figure = new_figure(DOUBLE, height)
+        legend = None
         for number, (frame, name) in enumerate(((found.together, "together"), (apart, "apart again"))):
-            left = 0.55 + 3.55 * number
-            axes = figure.add_axes((left / DOUBLE, 1.72 / height, 3.0 / DOUBLE, 3.0 / height))
+            box = (0.55 + 3.55 * number, 1.75, 3.0, 3.0)
+            axes = figure.add_axes((box[0] / DOUBLE, box[1] / height, box[2] / DOUBLE, box[3] / height))
             draw_snapshot(axes, record, _RUN, frame, trail=_TRAIL)
-            figure.text(left / DOUBLE, (height - 0.2) / height, f"{'AB'[number]}  Fast buoys {name}",
-                        fontsize=9.5, fontweight="bold", va="center")  # fmt: skip
-            axes.set_title(axes.get_title(loc="left"), fontsize=8.5, fontweight="normal", pad=20)
+            legend = legend or axes.get_legend()
+            step = int(record.trajectories[_RUN].step[frame])
+            axes.set_title(f"{'AB'[number]}  Fast buoys {name}, step {count(step)}", pad=7)
+            axes.legend().remove()
             data += _frame_rows(record, frame, {"panel": name})
-        strip = figure.add_axes((0.55 / DOUBLE, 0.45 / height, (DOUBLE - 0.65) / DOUBLE, 0.72 / height))
+        if legend is not None:
+            handles, labels = legend.legend_handles, [text.get_text() for text in legend.get_texts()]
+            figure.legend(handles, labels, loc="upper left", bbox_to_anchor=(0.5 / DOUBLE, 1.0), ncols=len(labels))
+        strip = figure.add_axes((0.55 / DOUBLE, 0.42 / height, (DOUBLE - 0.65) / DOUBLE, 0.68 / height))
         data += _draw_distance(strip, record, found, apart)
     return Figure(
         "clustering", "Fast buoys cluster and disperse", _clustering_caption(record, found, apart), figure, data
@@ -72,16 +80,15 @@ def _draw_distance(axes: "Axes", record: Record, found: Clustering, apart: int) 
     window = slice(max(0, found.together - _AROUND), min(len(step), apart + _AROUND))
     axes.plot(step[window], found.distance[window], color=FLEET_COLORS[0], linewidth=1.2)
     axes.axhline(found.median, color=GRAY, linewidth=0.8, linestyle=(0, (4, 3)))
-    axes.annotate("median of the run", (1.0, found.median), (-2, 2), xycoords=("axes fraction", "data"),
-                  textcoords="offset points", ha="right", va="bottom", fontsize=8, color=GRAY)  # fmt: skip
     for frame, name in ((found.together, "A"), (apart, "B")):
         axes.plot([step[frame]], [found.distance[frame]], "o", color=INK, markersize=4.5)
         axes.annotate(name, (step[frame], found.distance[frame]), (5, -3), textcoords="offset points",
                       fontweight="bold", va="top")  # fmt: skip
     axes.set_xlim(step[window][0], step[window][-1])
     axes.set_ylim(0.0, 1.15 * float(found.distance[window].max()))
-    axes.set_xlabel("step")
-    axes.set_ylabel("distance [m]")
+    axes.set_title("Mean distance between two fast buoys (dashed: its median over the run)", fontsize=8.5, pad=4)
+    axes.set_xlabel("step", labelpad=1)
+    axes.set_ylabel("[m]")
     axes.grid(visible=True)
     rows = zip(step[window].tolist(), found.distance[window].tolist(), strict=True)
     return [
@@ -113,8 +120,8 @@ def _frame_rows(record: Record, frame: int, labels: dict[str, Any], **flags: Any
 
 def _locked_caption(record: Record, found: Locked) -> str:
     frames, area = record.trajectories[_RUN], record.scenario["area"]
-    limit = area["width"] / 2 - area["agent_margin"] - _EDGE
-    at_edge = np.maximum(np.abs(frames.x[found.frame]), np.abs(frames.y[found.frame])) >= limit
+    edge = area["width"] / 2 - area["agent_margin"] - _EDGE
+    at_edge = np.maximum(np.abs(frames.x[found.frame]), np.abs(frames.y[found.frame])) >= edge
     locked, on_target = int(found.locked.sum()), int(frames.on_target[found.frame].sum())
     return (
         f"{_swarm(record)}. Squares: buoys that have heard of no target for so long that their repulsion a_R is at its "

@@ -79,7 +79,7 @@ def short_name(name: str) -> str:
 
 def _fleet_labels(record: Record) -> list[str]:
     facts = record.facts
-    return [f"{short_name(name)}, {speed:g} m/s" for name, speed in zip(facts.fleets, facts.max_speeds, strict=True)]
+    return [f"{short_name(name)}, {speed:.3g} m/s" for name, speed in zip(facts.fleets, facts.max_speeds, strict=True)]
 
 
 def _snapshot_labels(record: Record) -> list[str]:

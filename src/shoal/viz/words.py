@@ -105,7 +105,7 @@ def provenance_phrases(record: Record) -> list[str]:
 
 def _speed_text(target: dict[str, Any]) -> str:
     if target["kind"] == "waypoint":
-        return f"{target['speed']:g} m/s"
+        return f"{target['speed']:.3g} m/s"
     if target["kind"] == "track":
         return f"recorded ({target['id']})" if target.get("id") else "recorded"
     return "still"

@@ -1,0 +1,93 @@
+"""What the paper leaves open, flipped one at a time: where the curves over k peak then, as dots with intervals."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from shoal.paper.figures_peaks import Peak, peak_of
+from shoal.paper.figures_series import (
+    ALL_SLOW,
+    DOUBLE,
+    MIXED,
+    TIME_ON_TARGET,
+    XI,
+    Quantity,
+    levels,
+    plain_rows,
+    swarm_text,
+    where,
+)
+from shoal.paper.results import Figure, Row
+from shoal.viz.style import FLEET_COLORS, new_figure, style
+
+_SWARMS = {MIXED: (FLEET_COLORS[0], "o", 0.17), ALL_SLOW: (FLEET_COLORS[2], "s", -0.17)}
+_PANELS: tuple[tuple[Quantity, str, str], ...] = (
+    (TIME_ON_TARGET, "k* (time on target peaks)", "k"),
+    (XI, "k of the peak of Ξ", "k"),
+    (TIME_ON_TARGET, "time on target at k* [%]", "height"),
+)
+
+
+def sensitivity_figure(rows: Sequence[Row]) -> Figure | None:
+    """Draw the peaks of every variant, a line each, mixed and all-slow swarm; the first variant's as vertical lines.
+
+    Returns None where no variant has a peak.
+    """
+    rows = plain_rows(rows)
+    names = list(dict.fromkeys(row["variant"] for row in rows if row.get("variant")))
+    peaks = {
+        (name, fast, quantity.column): peak
+        for name in names
+        for fast in _SWARMS
+        for quantity in (TIME_ON_TARGET, XI)
+        if (peak := peak_of(where(rows, variant=name, fast=fast), quantity)) is not None
+    }
+    if not peaks:
+        return None
+    data: list[Row] = []
+    with style():
+        figure = new_figure(DOUBLE, 0.95 + 0.34 * len(names))
+        figure.set_layout_engine("constrained", h_pad=0.05, w_pad=0.05)
+        panels = figure.subplots(1, len(_PANELS), sharey=True)
+        for axes, (quantity, label, what) in zip(panels, _PANELS, strict=True):
+            for fast, (color, marker, shift) in _SWARMS.items():
+                for line, name in enumerate(names):
+                    peak = peaks.get((name, fast, quantity.column))
+                    if peak is None:
+                        continue
+                    at, low, high = _shown(peak, what)
+                    axes.plot([low, high], [line - shift] * 2, color=color, linewidth=1.8, solid_capstyle="butt")
+                    axes.plot([at], [line - shift], marker, color=color, markersize=4.5)
+                    data.append(
+                        {"variant": name, "fast": fast, "quantity": label, "value": at, "low": low, "high": high}
+                    )
+                    if line == 0:
+                        axes.axvline(at, color=color, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
+            axes.set_xlabel(label)
+            axes.grid(axis="x")
+        panels[0].set_yticks(range(len(names)), names)
+        panels[0].set_ylim(len(names) - 0.4, -0.6)
+        for axes in panels:
+            axes.tick_params(axis="y", length=0)
+        figure.legend(handles=_signs(), loc="outside upper left", ncols=2, borderaxespad=0.2)
+    caption = (
+        "What the paper does not say, decided the other way, one choice at a time: where time on target and Ξ peak over "
+        f"k then, and how high time on target gets, with 95 % intervals, for a target of "
+        f"{' and '.join(f'{speed:g}' for speed in levels(rows, 'target_speed'))} m/s. Dashed lines: {names[0]}, the "
+        "paper as printed. A conclusion depends on a choice where its dots leave the dashed lines."
+    )
+    return Figure("sensitivity", "What the paper does not say", caption, figure, data)
+
+
+def _shown(peak: Peak, what: str) -> tuple[float, float, float]:
+    if what == "height":
+        return peak.height, peak.height_low, peak.height_high
+    return peak.x, peak.low, peak.high
+
+
+def _signs() -> list[Any]:
+    from matplotlib.lines import Line2D
+
+    return [
+        Line2D([], [], color=color, marker=marker, markersize=4.5, linewidth=1.8, label=swarm_text(fast))
+        for fast, (color, marker, _) in _SWARMS.items()
+    ]

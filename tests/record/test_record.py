@@ -1,0 +1,86 @@
+"""What runs leave behind, as numbers and as JSON."""
+
+import json
+
+import numpy as np
+import pytest
+
+from scenarios import scenario
+from shoal.metrics.summary import METRICS
+from shoal.record.statistics import estimate
+from shoal.simulate import simulate
+
+
+@pytest.fixture(scope="module")
+def record():
+    return simulate(scenario("oceans2020", {"steps": 600}), runs=4)
+
+
+@pytest.fixture(scope="module")
+def one_run():
+    return simulate(scenario("oceans2020", {"steps": 600}))
+
+
+class TestEstimates:
+    """Over runs where there are several, over batches of one."""
+
+    @pytest.mark.parametrize("metric", METRICS)
+    def test_of_several_runs(self, record, metric):
+        result = record.estimate(metric)
+        assert len(result.runs) == 4
+        assert result == estimate(result.runs)
+
+    def test_of_one_run_have_an_interval_too(self, one_run):
+        low, high = one_run.estimate("xi").ci95
+        assert low < one_run.estimate("xi").mean < high
+
+    def test_of_no_such_metric(self, record):
+        with pytest.raises(KeyError):
+            record.estimate("happiness")
+
+    def test_of_fleets_weighted_by_counts_make_the_swarm(self, record):
+        fast, slow = (record.fleet_estimate("xi")[name].mean for name in ("BoB-1", "BoB-0"))
+        assert (15 * fast + 35 * slow) / 50 == pytest.approx(record.estimate("xi").mean)
+
+    def test_of_the_swarm_are_the_means_over_steps(self, one_run):
+        """Of the one run, from its frames: a metric is a mean over steps."""
+        frames = simulate(scenario("oceans2020", {"steps": 600}), every=1).trajectories[0]
+        v = np.stack([frames.vx, frames.vy])
+        fluctuation = np.hypot(*(v - v.mean(axis=2, keepdims=True)))
+        assert one_run.estimate("xi_raw").mean == pytest.approx(fluctuation.mean(), rel=1e-12)
+        assert one_run.estimate("time_on_target").mean == frames.on_target.any(axis=1).mean()
+        assert one_run.estimate("engaged").mean == pytest.approx(frames.on_target.sum(axis=1).mean())
+
+
+class TestHistogram:
+    """phi, in agents per step."""
+
+    def test_sums_to_all_agents(self, record):
+        assert record.phi_histogram().shape == (2, 11)
+        assert record.phi_histogram().sum(axis=1) == pytest.approx([15, 35])
+
+
+class TestSummary:
+    """Everything in plain numbers."""
+
+    def test_is_json(self, record):
+        summary = record.summary()
+        assert json.loads(json.dumps(summary, allow_nan=False)) == summary
+
+    def test_says_what_ran_and_on_what(self, record):
+        summary = record.summary()
+        assert summary["runs"] == 4
+        assert (summary["steps"], summary["seed"]) == (600, 1)
+        assert summary["scenario_hash"] == scenario("oceans2020", {"steps": 600}).hash
+        assert {"shoal", "numba", "numpy", "python"} <= summary["versions"].keys()
+        assert summary["units"].keys() == METRICS.keys()
+        assert [summary["fleets"][name]["count"] for name in ("BoB-1", "BoB-0")] == [15, 35]
+
+    def test_of_a_run_without_a_target_has_null_for_what_cannot_be_told(self):
+        record = simulate(scenario("oceans2020", {"steps": 50}))
+        for tally in record.tallies:
+            tally.present[:] = tally.on_target[:] = tally.engaged[:] = tally.histogram[:] = tally.stationary[:] = 0
+        summary = record.summary()
+        assert summary["time_on_target"] == {"mean": None, "ci95": None, "runs": [None]}
+        assert summary["xi"]["mean"] > 0
+        json.dumps(summary, allow_nan=False)
