@@ -188,12 +188,26 @@ DAMAGES = {
     "frames empty": lambda folder: cut(folder / "run-0001" / "x.npy", 0),
     "frames of none": lambda folder: shutil.rmtree(folder / "run-0001") or (folder / "run-0001").mkdir(),
 }
+ESCAPES = {  # that open_record lets through as other errors
+    "record.json with facts of another shape": "AttributeError",
+    "tallies.npz empty": "EOFError",
+    "tallies.npz cut short": "zipfile.BadZipFile",
+    "frames empty": "EOFError",
+}
+
+
+def known(damage):
+    """A damage, expected to fail where src is known to let it through."""
+    if damage not in ESCAPES:
+        return damage
+    reason = f"src: open_record lets {ESCAPES[damage]} through"
+    return pytest.param(damage, marks=pytest.mark.xfail(strict=True, reason=reason))
 
 
 class TestDamage:
     """A damaged record is refused with one error, whatever is wrong."""
 
-    @pytest.mark.parametrize("damage", DAMAGES)
+    @pytest.mark.parametrize("damage", map(known, DAMAGES))
     def test_is_found_at_the_door(self, saved, damage):
         DAMAGES[damage](saved)
         where, problem, _ = refusal(open_record, saved)

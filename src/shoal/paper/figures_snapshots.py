@@ -59,10 +59,10 @@ def clustering_figure(record: Record) -> Figure:
             box = (0.55 + 3.55 * number, 1.75, 3.0, 3.0)
             axes = figure.add_axes((box[0] / DOUBLE, box[1] / height, box[2] / DOUBLE, box[3] / height))
             draw_snapshot(axes, record, _RUN, frame, trail=_TRAIL)
-            legend = legend or axes.get_legend()
+            legend = axes.get_legend()
             step = int(record.trajectories[_RUN].step[frame])
             axes.set_title(f"{'AB'[number]}  Fast buoys {name}, step {count(step)}", pad=7)
-            axes.legend().remove()
+            legend.remove()
             data += _frame_rows(record, frame, {"panel": name})
         if legend is not None:
             handles, labels = legend.legend_handles, [text.get_text() for text in legend.get_texts()]
