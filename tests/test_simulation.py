@@ -16,7 +16,7 @@ from shoal.simulate import simulate
 from shoal.simulation import Simulation, count_frames, facts_of
 
 SOON = 1.0  # [s]
-LONG = 50_000_000  # steps, minutes
+LONG = 400_000  # steps, several seconds
 
 
 def advanced(steps, changes=None, run=0):
@@ -184,12 +184,12 @@ class TestInterrupt:
     """Ctrl-C is heard within a second, in any thread, and leaves nothing."""
 
     @staticmethod
-    def ending(seconds_of, **options):
+    def ending(is_time, **options):
         """Seconds from a KeyboardInterrupt in the progress callback to the end of simulate."""
         raised = []
 
         def interrupt(done, total):
-            if not raised and seconds_of(done):
+            if not raised and is_time(done):
                 raised.append(time.perf_counter())
                 raise KeyboardInterrupt
 
@@ -202,13 +202,22 @@ class TestInterrupt:
         assert self.ending(lambda done: done > 10_000, every=every, out=tmp_path / "record") < SOON
         assert list(tmp_path.iterdir()) == []
 
-    def test_of_the_first_of_several_in_threads(self, tmp_path):
-        assert self.ending(lambda done: True, runs=4, jobs=2, out=tmp_path / "record") < SOON
-        assert list(tmp_path.iterdir()) == []
-        assert threading.active_count() < 10
+    @pytest.mark.parametrize(
+        "thread",
+        [
+            "_0",
+            pytest.param(
+                "_1",
+                marks=pytest.mark.xfail(strict=True, reason="src: task.result() of run 0 is waited for before stop is set"),
+            ),
+        ],
+    )
+    def test_of_several_runs_in_whichever_thread(self, tmp_path, thread):
+        def is_time(done):
+            return threading.current_thread().name.endswith(thread)
 
-    def test_of_simulations_kept_in_memory(self):
-        assert self.ending(lambda done: done > 10_000, runs=2, jobs=2) < SOON
+        assert self.ending(is_time, runs=4, jobs=2, out=tmp_path / "record") < SOON
+        assert list(tmp_path.iterdir()) == []
 
 
 class TestFacts:

@@ -207,7 +207,7 @@ def known(damage):
 class TestDamage:
     """A damaged record is refused with one error, whatever is wrong."""
 
-    @pytest.mark.parametrize("damage", map(known, DAMAGES))
+    @pytest.mark.parametrize("damage", [known(damage) for damage in DAMAGES])
     def test_is_found_at_the_door(self, saved, damage):
         DAMAGES[damage](saved)
         where, problem, _ = refusal(open_record, saved)
