@@ -60,15 +60,15 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the numbers to this file too")
     file = parser.parse_args().json
-    begun = time.perf_counter()
+    begun, load_before = time.perf_counter(), load()
     with tempfile.TemporaryDirectory() as folder:
         anchor, remark = compile_anchor(Path(folder))
         rows = [*step_rows(anchor), *thread_rows(), *process_rows(Path(folder))]
     seconds = time.perf_counter() - begun
     print_table(rows, remark)
-    print(f"\n{machine()}; {seconds:.0f} s; load {load()}")
+    print(f"\n{machine()}; {seconds:.0f} s; load before {load_before}, after {load()}")
     if file:
-        file.write_text(json.dumps(report(rows, remark), indent=1) + "\n", encoding="utf-8")
+        file.write_text(json.dumps(report(rows, remark, load_before), indent=1) + "\n", encoding="utf-8")
 
 
 # --- the cost of a step ---
@@ -291,7 +291,7 @@ def shown(value: float | None) -> str:
     return f"{value:,.0f}" if value >= 100 else f"{value:.1f}" if value >= 10 else f"{value:.2f}"
 
 
-def report(rows: list[Row], remark: str) -> dict[str, Any]:
+def report(rows: list[Row], remark: str, load_before: str) -> dict[str, Any]:
     """Everything in plain numbers."""
     return {
         "rows": [
@@ -301,7 +301,7 @@ def report(rows: list[Row], remark: str) -> dict[str, Any]:
         ],
         "remark": remark,
         "machine": machine(),
-        "load": load(),
+        "load": {"before": load_before, "after": load()},
     }
 
 
@@ -314,7 +314,7 @@ def machine() -> str:
 
 
 def load() -> str:
-    """Load averages at the end of the bench: above 2 while it runs, others are at work too."""
+    """Load averages over 1, 5 and 15 minutes; much above 0 before the bench, others are at work too."""
     return " ".join(f"{value:.1f}" for value in os.getloadavg()) if hasattr(os, "getloadavg") else "unknown"
 
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scenarios import scenario, small
 from shoal.core.errors import RecordError, ScenarioError
 from shoal.record.files import open_record
-from shoal.simulate import simulate
+from shoal.runs import simulate
 from shoal.simulation import Simulation, count_frames, facts_of
 
 SOON = 1.0  # [s]

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from shoal.record.record import Record
     from shoal.scenario.load import load, presets, to_toml
     from shoal.scenario.schema import Scenario
-    from shoal.simulate import simulate
+    from shoal.runs import simulate
     from shoal.simulation import Simulation
     from shoal.strategies import strategy
 
@@ -34,7 +34,7 @@ _HOMES = {
     "shoal.record.record": ("Record",),
     "shoal.scenario.load": ("load", "presets", "to_toml"),
     "shoal.scenario.schema": ("Scenario",),
-    "shoal.simulate": ("simulate",),
+    "shoal.runs": ("simulate",),
     "shoal.simulation": ("Simulation",),
     "shoal.strategies": ("strategy",),
 }

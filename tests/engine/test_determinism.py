@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scenarios import fleets, scenario, small
-from shoal.simulate import simulate
+from shoal.runs import simulate
 from shoal.simulation import Simulation
 
 STEPS = 120

@@ -81,7 +81,6 @@ class TestByFleet:
             evaluate("stationary", tally, FACTS)[0]
         )
 
-    @pytest.mark.xfail(strict=True, reason="src: np.full_like of integer sums turns NaN into -2^63, with a warning")
     def test_without_a_target_there_is_no_histogram(self, tally):
         tally.present[:] = 0
         assert np.isnan(phi_histogram(tally)).all()

@@ -8,7 +8,7 @@ import pytest
 from scenarios import scenario
 from shoal.metrics.summary import METRICS
 from shoal.record.statistics import estimate
-from shoal.simulate import simulate
+from shoal.runs import simulate
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from shoal.scenario.load import read_table, scenario_from
-from shoal.simulate import simulate
+from shoal.runs import simulate
 from shoal.viz.style import RC, style
 from shoal.viz.summary import summary_figure
 

@@ -73,7 +73,7 @@ def run(
     """
     from shoal.core.errors import ScenarioError
     from shoal.scenario.load import scenario_from
-    from shoal.simulate import simulate
+    from shoal.runs import simulate
     from shoal.simulation import needs_compiling
 
     changes: dict[str, Any] = {

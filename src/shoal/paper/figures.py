@@ -28,10 +28,10 @@ def make_figures(reproduction: Reproduction) -> list[Figure]:
             locked_figure(seen),
             phi_figure(rows),
             share_figure(rows, "tot_share", "Time on target against the share of fast buoys", [TIME_ON_TARGET]),
-            k_figure(rows, "tot_k", "Time on target against connectivity", TIME_ON_TARGET, "k*"),
+            k_figure(rows, "tot_k", "Time on target against connectivity", TIME_ON_TARGET, "k* ="),
             clustering_figure(seen),
             share_figure(rows, "xi_share", "Velocity fluctuation against the share of fast buoys", [XI, XI_RAW]),
-            k_figure(rows, "xi_k", "Velocity fluctuation against connectivity", XI, "k of the peak"),
+            k_figure(rows, "xi_k", "Velocity fluctuation against connectivity", XI, "peak at k ="),
             sensitivity_figure(reproduction.sensitivity),
         ]
     )

@@ -16,7 +16,6 @@ from shoal.paper.figures_series import (
     levels,
     plain_rows,
     seeds_text,
-    sentence,
     series,
     show_means,
     speed_text,
@@ -67,8 +66,9 @@ def share_figure(rows: Sequence[Row], name: str, title: str, quantities: Sequenc
             axes.set_xlabel("share of fast buoys [%]")
         handles, labels = panels[0, 0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside upper left", ncols=len(ks), borderaxespad=0.2)
+    names = ", and below ".join(_capital(quantity.name) for quantity in quantities)
     caption = (
-        f"{sentence(quantities)} of a swarm of {AGENTS} buoys against its share of fast ones, at "
+        f"{names}, of a swarm of {AGENTS} buoys against its share of fast ones, at "
         f"{_several('k', ks)}, for {_speeds(speeds)}. {seeds_text(rows)} Seeds are shared by all points, so that "
         "differences between points are surer than their bands suggest."
     )
@@ -97,7 +97,7 @@ def k_figure(rows: Sequence[Row], name: str, title: str, quantity: Quantity, sym
                 cell = where(rows, fast=fast, target_speed=speed)
                 points = series(cell, "neighbors", quantity)
                 peak = peak_of(cell, quantity)
-                label = swarm_text(fast) + (f": {symbol} = {peak.text}" if peak else "")
+                label = swarm_text(fast) + (f": {symbol} {peak.text}" if peak else "")
                 curve(panels[j], points, label, color, marker)
                 data += points.rows("neighbors", quantity, fast=fast, target_speed=speed)
                 if peak:
@@ -111,9 +111,9 @@ def k_figure(rows: Sequence[Row], name: str, title: str, quantity: Quantity, sym
         figure.draw_without_rendering()  # panels take their places
         _legends_above(panels)
     caption = (
-        f"{sentence([quantity])} of the {_several('swarm', [swarm_text(fast) for fast in swarms])} against the "
+        f"{_capital(quantity.name)} of the {_several('swarm', [swarm_text(fast) for fast in swarms])} against the "
         f"number of neighbors k that a buoy listens to, for {_speeds(speeds)}. Dotted lines lead from each peak to "
-        f"its place {symbol} with its 95 % interval, at the bottom. {seeds_text(rows)}"
+        f"its k and the 95 % interval of that, at the bottom. {seeds_text(rows)}"
     )
     return Figure(name, title, caption, figure, data)
 
@@ -173,6 +173,10 @@ def _shades(count: int) -> list[Any]:
 
 def _pairs(rows: Sequence[Any], columns: Sequence[Any]) -> list[tuple[tuple[int, Any], tuple[int, Any]]]:
     return [(row, column) for row in enumerate(rows) for column in enumerate(columns)]
+
+
+def _capital(text: str) -> str:
+    return text[0].upper() + text[1:]
 
 
 def _several(noun: str, values: Sequence[Any]) -> str:

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 _WANTED_K = (10, 20, 40)
 _FLEETS = ("fast (BoB-1)", "slow (BoB-0)")
 _STATIONARY = Quantity("stationary", "stationary agents", "%", 100.0)
+_UNIT = "agents per step"
+_PHI = [round(center, 3) for center in CENTERS.tolist()]
 _MIDDLE = (CENTERS[:-1] + CENTERS[1:]) / 2
 EDGES = np.concatenate([[-1.0], _MIDDLE, [1.0]])
 
@@ -91,13 +93,15 @@ def _draw_panel(axes: "Axes", cell: Sequence[Row], labels: dict[str, Any]) -> li
             linewidth=0.5, label=_FLEETS[fleet],
         )  # fmt: skip
         base = base + heights
-        data += [{**labels, "agents": _FLEETS[fleet], "phi": round(at, 3), "unit": "agents per step", "mean": height,
-                  "runs": len(cell)} for at, height in zip(CENTERS.tolist(), heights.tolist(), strict=True)]  # fmt: skip
+        data += [
+            {**labels, "agents": _FLEETS[fleet], "phi": at, "unit": _UNIT, "mean": height, "runs": len(cell)}
+            for at, height in zip(_PHI, heights.tolist(), strict=True)
+        ]
     totals = [estimate(values) for values in np.array([row["phi_histogram"] for row in cell]).T]
-    for left, right, at, total in zip(EDGES[:-1], EDGES[1:], CENTERS.tolist(), totals, strict=True):
+    for left, right, at, total in zip(EDGES[:-1], EDGES[1:], _PHI, totals, strict=True):
         low, high = total.ci95 or (np.nan, np.nan)
         axes.vlines((left + right) / 2, low, high, color=INK, linewidth=0.9)
-        data.append({**labels, "agents": "all", "phi": round(at, 3), "unit": "agents per step", "mean": total.mean,
+        data.append({**labels, "agents": "all", "phi": at, "unit": _UNIT, "mean": total.mean,
                      "low": low, "high": high, "runs": len(cell)})  # fmt: skip
     still = series(cell, "neighbors", _STATIONARY)
     if still.mean:

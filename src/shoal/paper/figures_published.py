@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,7 +17,6 @@ from shoal.paper.figures_series import (
     seeds_text,
     series,
     show_means,
-    where,
 )
 from shoal.paper.results import Figure, Row
 from shoal.viz.style import FLEET_COLORS, GRAY, TARGET, new_figure, style
@@ -58,11 +57,13 @@ def published_figure(rows: Sequence[Row], published: Sequence[Row]) -> Figure | 
             panels[1, j].set_xlabel("number of neighbors k")
             panels[1, j].set_xticks(levels(rows, "neighbors")[::2])
         handles, labels = panels[0, 0].get_legend_handles_labels()
+        figure.align_ylabels(panels[:, 0])
+        figure.align_ylabels(panels[:, 1])
         figure.legend(handles, labels, loc="outside upper left", ncols=len(labels), borderaxespad=0.2)
     caption = (
-        "The homogeneous predecessor (AAMAS 2020): time on target and response of 50 equal buoys against k. Crosses are "
-        "the published values, for adaptive repulsion. Below, measured less published with the 95 % interval; the gray "
-        f"band is the tolerance. {seeds_text(rows)}"
+        "The homogeneous predecessor (AAMAS 2020): time on target and response of 50 equal buoys against k. Crosses "
+        "are the published values, for adaptive repulsion. Below, measured less published with the 95 % interval; the "
+        f"gray band is the tolerance. {seeds_text(rows)}"
     )
     return Figure("published", "The predecessor's published curves", caption, figure, data)
 
@@ -84,8 +85,7 @@ def _draw_curves(axes: "Axes", rows: Sequence[Row], published: Sequence[Row], qu
          "low": math.nan, "high": math.nan}
         for k, value in zip(x, y, strict=True)
     ]  # fmt: skip
-    axes.set_title(quantity.name.capitalize())
-    axes.set_ylabel(f"[{quantity.unit}]")
+    axes.set_ylabel(quantity.label)
     axes.grid(visible=True)
     return data
 
@@ -104,12 +104,26 @@ def _draw_residuals(axes: "Axes", published: Sequence[Row], quantity: Quantity) 
         axes.plot([k], [at], "o", color=FLEET_COLORS[0], markersize=3.8)
         data.append({"source": "measured less published", "neighbors": k, "quantity": quantity.name, "unit": unit,
                      "mean": at, "low": low, "high": high})  # fmt: skip
-    tolerance = [
+    tolerance = sorted(
         (row["neighbors"], quantity.factor * row["tolerance"]) for row in published if _known(row, "tolerance")
-    ]
+    )
     if tolerance:
-        k, half = np.array(sorted(tolerance)).T
+        k, half = np.array(tolerance).T
         axes.fill_between(k, -half, half, color=GRAY, alpha=0.15, linewidth=0, zorder=0.5)
+        data += [
+            {
+                "source": "tolerance",
+                "neighbors": at,
+                "quantity": quantity.name,
+                "unit": unit,
+                "mean": 0.0,
+                "low": -each,
+                "high": each,
+            }
+            for at, each in tolerance
+        ]
+    reach = max([1.4 * abs(row["mean"]) for row in data] + [2.2 * half for _, half in tolerance], default=1.0)
+    axes.set_ylim(-reach or -1.0, reach or 1.0)  # bars, very wide with two seeds, may reach out
     return data
 
 

@@ -12,6 +12,7 @@ from shoal.paper.figures_series import (
     XI,
     Quantity,
     levels,
+    limits,
     plain_rows,
     swarm_text,
     where,
@@ -62,16 +63,19 @@ def sensitivity_figure(rows: Sequence[Row]) -> Figure | None:
                     )
                     if line == 0:
                         axes.axvline(at, color=color, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
+            axes.set_xlim(*limits([row for row in data if row["quantity"] == label], "value"))
+            for line in range(1, len(names), 2):
+                axes.axhspan(line - 0.5, line + 0.5, color="#f3f5f7", linewidth=0, zorder=0)
             axes.set_xlabel(label)
             axes.grid(axis="x")
         panels[0].set_yticks(range(len(names)), names)
-        panels[0].set_ylim(len(names) - 0.4, -0.6)
+        panels[0].set_ylim(len(names) - 0.5, -0.5)
         for axes in panels:
             axes.tick_params(axis="y", length=0)
         figure.legend(handles=_signs(), loc="outside upper left", ncols=2, borderaxespad=0.2)
     caption = (
-        "What the paper does not say, decided the other way, one choice at a time: where time on target and Ξ peak over "
-        f"k then, and how high time on target gets, with 95 % intervals, for a target of "
+        "What the paper does not say, decided the other way, one choice at a time: where time on target and Ξ peak "
+        f"over k then, and how high time on target gets, with 95 % intervals, for a target of "
         f"{' and '.join(f'{speed:g}' for speed in levels(rows, 'target_speed'))} m/s. Dashed lines: {names[0]}, the "
         "paper as printed. A conclusion depends on a choice where its dots leave the dashed lines."
     )

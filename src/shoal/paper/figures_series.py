@@ -23,12 +23,13 @@ CURVE_FIELDS = ("fast", "neighbors", "target_speed")
 
 @dataclass(frozen=True)
 class Quantity:
-    """A metric as a figure shows it: the column, its name, unit, and the factor from the column to the unit."""
+    """A metric as a figure shows it: the column, its name, unit, the factor from the column to the unit, a bound."""
 
     column: str
     name: str
     unit: str
     factor: float = 1.0
+    most: float = math.inf  # [unit] intervals end here, and at 0
 
     @property
     def label(self) -> str:
@@ -36,9 +37,9 @@ class Quantity:
         return f"{self.name} [{self.unit}]" if self.unit else self.name
 
 
-TIME_ON_TARGET = Quantity("time_on_target", "time on target", "%", 100.0)
+TIME_ON_TARGET = Quantity("time_on_target", "time on target", "%", 100.0, 100.0)
 XI = Quantity("xi", "velocity fluctuation Ξ", "")
-XI_RAW = Quantity("xi_raw", "mean |u|, not normalized", "m/s")
+XI_RAW = Quantity("xi_raw", "Ξ not normalized", "m/s")
 RESPONSE = Quantity("response", "response", "unit/step")
 
 
@@ -94,8 +95,8 @@ def series(rows: Iterable[Row], x: str, quantity: Quantity) -> Series:
     return Series(
         tuple(known),
         tuple(each.mean for each in known.values()),
-        tuple(low for low, _ in intervals),
-        tuple(high for _, high in intervals),
+        tuple(float(np.clip(low, 0.0, quantity.most)) for low, _ in intervals),
+        tuple(float(np.clip(high, 0.0, quantity.most)) for _, high in intervals),
         tuple(len(each.runs) for each in known.values()),
     )
 
@@ -109,7 +110,7 @@ def curve(
     if len(x) == 1:
         axes.vlines(x, points.low, points.high, color=color, linewidth=1.4)
     axes.lines[-1].set_linewidth(2.2 if bold else 1.3)
-    axes.plot(x, points.mean, marker, color=color, markersize=4.2 if bold else 3.2, markeredgewidth=0, zorder=3)
+    axes.plot(x, points.mean, marker, color=color, markersize=3.8 if bold else 3.0, markeredgewidth=0, zorder=3)
     axes.plot(
         [],
         [],
@@ -123,18 +124,19 @@ def curve(
 
 
 def show_means(axes: "Axes", rows: Iterable[Row]) -> None:
-    """Fit the y axis to the means; bands, very wide with two seeds, may reach out of the panel."""
+    """Fit the y axis to the means of the rows; bands, very wide with two seeds, may reach out of the panel."""
+    axes.set_ylim(*limits(rows, "mean"))
+
+
+def limits(rows: Iterable[Row], value: str) -> tuple[float, float]:
+    """The range of a column with some room, as much of it as the intervals (low, high) need."""
     rows = list(rows)
-    means = np.array([row["mean"] for row in rows])
-    pad = max(0.3 * float(np.ptp(means)), 0.02 * float(np.abs(means).max()), 1e-9)
-    bottom, top = means.min() - pad, means.max() + pad
-    bottom = max(
-        bottom, min(float(np.nanmin([row["low"] for row in rows] + [means.min()])) - 0.1 * pad, means.min() - 0.1 * pad)
-    )
-    top = min(
-        top, max(float(np.nanmax([row["high"] for row in rows] + [means.max()])) + 0.1 * pad, means.max() + 0.1 * pad)
-    )
-    axes.set_ylim(bottom, top)
+    values = np.array([row[value] for row in rows])
+    bottom, top = float(values.min()), float(values.max())
+    room = max(0.3 * (top - bottom), 0.02 * float(np.abs(values).max()), 1e-9)
+    lowest = float(np.nanmin([bottom, *(row["low"] for row in rows)]))
+    highest = float(np.nanmax([top, *(row["high"] for row in rows)]))
+    return max(bottom - room, lowest - 0.25 * room), min(top + room, highest + 0.25 * room)
 
 
 def spread(values: Sequence[Any], most: int, keep: Any = None) -> list[Any]:
@@ -147,12 +149,6 @@ def spread(values: Sequence[Any], most: int, keep: Any = None) -> list[Any]:
         chosen -= {min(inner, key=lambda value: abs(value - keep))}
         chosen |= {keep}
     return sorted(chosen)
-
-
-def sentence(quantities: Sequence[Quantity]) -> str:
-    """Their names, as a sentence begins."""
-    text = " and ".join(quantity.name for quantity in quantities)
-    return text[0].upper() + text[1:]
 
 
 def speed_text(speed: float) -> str:
@@ -170,7 +166,10 @@ def swarm_text(fast: int) -> str:
 def seeds_text(rows: Iterable[Row]) -> str:
     """What the bands are over."""
     seeds = len({row.get("run") for row in rows})
-    return f"Bands: 95 % interval over {seeds} seeds." if seeds > 1 else "One seed: no intervals."
+    if seeds < 2:
+        return "One seed: no intervals."
+    wide = " With so few seeds they are wide, and may reach out of the panel." if seeds < 4 else ""
+    return f"Bands: 95 % interval over {seeds} seeds.{wide}"
 
 
 def _varies_more(name: str) -> bool:

@@ -14,6 +14,7 @@ from shoal.viz.words import count
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as MplFigure
 
 _RUN = 0
 _TRAIL = 30  # steps of the target's trail, a third of it for the buoys'
@@ -54,24 +55,31 @@ def clustering_figure(record: Record) -> Figure:
     with style():
         height = 5.3
         figure = new_figure(DOUBLE, height)
-        legend = None
         for number, (frame, name) in enumerate(((found.together, "together"), (apart, "apart again"))):
             box = (0.55 + 3.55 * number, 1.75, 3.0, 3.0)
             axes = figure.add_axes((box[0] / DOUBLE, box[1] / height, box[2] / DOUBLE, box[3] / height))
             draw_snapshot(axes, record, _RUN, frame, trail=_TRAIL)
-            legend = axes.get_legend()
+            _share_legend(axes, figure)
             step = int(record.trajectories[_RUN].step[frame])
             axes.set_title(f"{'AB'[number]}  Fast buoys {name}, step {count(step)}", pad=7)
-            legend.remove()
             data += _frame_rows(record, frame, {"panel": name})
-        if legend is not None:
-            handles, labels = legend.legend_handles, [text.get_text() for text in legend.get_texts()]
-            figure.legend(handles, labels, loc="upper left", bbox_to_anchor=(0.5 / DOUBLE, 1.0), ncols=len(labels))
         strip = figure.add_axes((0.55 / DOUBLE, 0.42 / height, (DOUBLE - 0.65) / DOUBLE, 0.68 / height))
         data += _draw_distance(strip, record, found, apart)
     return Figure(
         "clustering", "Fast buoys cluster and disperse", _clustering_caption(record, found, apart), figure, data
     )
+
+
+def _share_legend(axes: "Axes", figure: "MplFigure") -> None:
+    """Move the legend of a snapshot to the top of the page, where one serves all."""
+    legend = axes.get_legend()
+    if legend is None:
+        return
+    if not figure.legends:
+        signs = [handle for handle in legend.legend_handles if handle is not None]
+        names = [text.get_text() for text in legend.get_texts()]
+        figure.legend(signs, names, loc="upper left", bbox_to_anchor=(0.07, 1.0), ncols=len(names))
+    legend.remove()
 
 
 def _draw_distance(axes: "Axes", record: Record, found: Clustering, apart: int) -> list[Row]:
@@ -142,9 +150,9 @@ def _clustering_caption(record: Record, found: Clustering, apart: int) -> str:
         else f"B: the last step; the distance is not back above its median over the run, {found.median:.1f} m."
     )
     return (
-        f"{_swarm(record)}. A: of {count(found.distance.size)} steps, the one with the smallest mean distance among the "
-        f"fast buoys while somebody is on target, {found.distance[found.together]:.1f} m. {later} Below, that distance "
-        "over time."
+        f"{_swarm(record)}. A: of {count(found.distance.size)} steps, the one with the smallest mean distance between "
+        f"two fast buoys while somebody is on target, {found.distance[found.together]:.1f} m. {later} Below, that "
+        "distance over time."
     )
 
 

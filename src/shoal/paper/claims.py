@@ -1,0 +1,218 @@
+"""The claims C1-C13 of the OCEANS 2020 paper: what it says, what our runs give, and the verdict.
+
+Each function's docstring says its cases; how they add up is in cases.py. Key number: the case that speaks most against
+the claim. A k that the paper reads off a plot ("about 18") is 2.5 to either side: it tells 25 from 30.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from shoal.metrics.heading_bearing import CENTERS
+from shoal.paper.cases import Case, above_zero, counted, positive, told, told_number, verdict_of, within, worst
+from shoal.paper.clusters import Episode
+from shoal.paper.curves import (
+    Curve,
+    Interval,
+    Metric,
+    Peak,
+    bootstrap,
+    curve,
+    intervals,
+    peak,
+    peak_difference,
+    slopes,
+    values_of,
+)
+from shoal.paper.plan import AGENTS, FULL_STEPS, MIXED, SHARE_NEIGHBORS, START_PLACES
+from shoal.paper.results import Claim, Row
+
+ABOUT = 2.5  # what "about" means for a k
+SAME = 0.01  # a difference in time on target that does not matter
+SPREAD = 0.003  # C13
+SWARMS = {MIXED: "mixed", 0: "all slow"}
+STATEMENTS = {
+    "C1": "Time on target rises with the share of fast buoys, at every k and both target speeds.",
+    "C2": "The gain from fast buoys shrinks at high k.",
+    "C3": "With 15 fast buoys of 50, time on target peaks at k* of about 18.",
+    "C4": "k* is lower for the mixed than for the all-slow swarm.",
+    "C5": "Xi peaks at a k of about 25 (mixed) and about 30 (all slow).",
+    "C6": "The k at which Xi peaks exceeds k*.",
+    "C7": "Xi rises with the share of fast buoys from low to intermediate k.",
+    "C8": "Higher k moves the heading-bearing histogram toward +1.",
+    "C9": "A faster target gives more stationary agents.",
+    "C10": "At k = 20 the all-slow swarm has fewer stationary agents than the mixed one.",
+    "C11": "Where the fast buoys start does not matter.",
+    "C12": "Fast buoys that cluster disperse again.",
+    "C13": "Five runs of 100,000 steps vary by less than 0.3 % in time on target and Xi.",
+}
+
+
+def oceans_claims(
+    main: Sequence[Row], placement: Sequence[Row], episodes: Sequence[Episode], steps: int
+) -> list[Claim]:
+    """Return all thirteen, with their verdicts."""
+    of_main: tuple[Callable[[Sequence[Row]], Claim], ...] = (c1, c2, c3, c4, c5, c6, c7, c8, c9, c10)
+    return [*(claim(main) for claim in of_main), c11(main, placement), c12(episodes), c13(main, steps)]
+
+
+def c1(rows: Sequence[Row]) -> Claim:
+    """Cases: 15 fast less none at every k and speed; the rise over either half of the shares where many were run."""
+    rises = {
+        f"15 fast less none, {_place(k, speed)}": gain.at(k)
+        for speed in values_of(rows, "target_speed")
+        for gain in [_gain(rows, speed)]
+        for k in gain.x
+    }
+    for place, shares in _shares(rows, "time_on_target").items():
+        rises |= {f"first half of the shares, {place}": 25 * slopes(shares.between(0, 25))}
+        rises |= {f"second half of the shares, {place}": 25 * slopes(shares.between(25, AGENTS))}
+    return _claim("C1", _percent(above_zero(rises)), "the least rise is {}", "tot_share", "% points")
+
+
+def c2(rows: Sequence[Row]) -> Claim:
+    """Cases at each speed: the gain of 15 fast buoys over none, mean over k 10-20 less mean over k >= 40; the gain of
+    50 over none at k = 20 less at k = 40.
+    """
+    losses = {}
+    for speed in values_of(rows, "target_speed"):
+        gain = _gain(rows, speed)
+        low, high = gain.between(10, 20), gain.between(40, AGENTS)
+        if low.x.size and high.x.size:
+            losses[f"15 fast, {speed:g} m/s"] = low.runs.mean(axis=1) - high.runs.mean(axis=1)
+        all_fast = _gain(rows, speed, fast=AGENTS)
+        if {20, 40} <= set(all_fast.x):
+            losses[f"50 fast, {speed:g} m/s"] = all_fast.at(20) - all_fast.at(40)
+    return _claim("C2", _percent(above_zero(losses)), "from k <= 20 to k >= 40 it shrinks by {}", "tot_k", "% points")
+
+
+def c3(rows: Sequence[Row]) -> Claim:
+    """Cases: k* of the mixed swarm at each speed, in 18 +- 2.5."""
+    return _about("C3", rows, "time_on_target", {MIXED: 18.0}, "k* is {}", "tot_k")
+
+
+def c4(rows: Sequence[Row]) -> Claim:
+    """Cases: k* of the all-slow less that of the mixed swarm, at each speed."""
+    differences = {
+        f"{speed:g} m/s": peak_difference(*(_peak(rows, "time_on_target", fast, speed) for fast in (0, MIXED)))
+        for speed in values_of(rows, "target_speed")
+    }
+    cases = [Case(name, number, positive(number)) for name, number in differences.items()]
+    return _claim("C4", cases, "it is lower by {}", "tot_k", "k")
+
+
+def c5(rows: Sequence[Row]) -> Claim:
+    """Cases: k of the peak of Xi at each speed, in 25 +- 2.5 (mixed) and in 30 +- 2.5 (all slow)."""
+    return _about("C5", rows, "xi", {MIXED: 25.0, 0: 30.0}, "it peaks at k = {}", "xi_k")
+
+
+def c6(rows: Sequence[Row]) -> Claim:
+    """Cases: k of the peak of Xi less k*, of both swarms at each speed."""
+    differences = {
+        f"{swarm}, {speed:g} m/s": peak_difference(
+            *(_peak(rows, metric, fast, speed) for metric in ("xi", "time_on_target"))
+        )
+        for speed in values_of(rows, "target_speed")
+        for fast, swarm in SWARMS.items()
+    }
+    cases = [Case(name, number, positive(number)) for name, number in differences.items()]
+    return _claim("C6", cases, "it exceeds k* by {}", "xi_k", "k")
+
+
+def c7(rows: Sequence[Row]) -> Claim:
+    """Cases: rise of the normalised Xi from no to all fast buoys (least squares), at each k up to 30 and speed."""
+
+    def cases_of(metric: Metric) -> list[Case]:
+        shares = _shares([row for row in rows if row["neighbors"] <= 30], metric)
+        return above_zero({place: AGENTS * slopes(each) for place, each in shares.items()})
+
+    note = f"; not normalised [m/s], {counted(cases_of('xi_raw'))}"
+    return _claim("C7", cases_of("xi"), "the least rise is {}", "xi_share", "1", digits=3, note=note)
+
+
+def c8(rows: Sequence[Row]) -> Claim:
+    """Cases: agents with phi of 0.7 and more (the last two bins), from each k of 10, 20, 30, 40, 49 to the next, of
+    both swarms at each speed.
+    """
+    rises = {}
+    for speed in values_of(rows, "target_speed"):
+        for fast, swarm in SWARMS.items():
+            heading = curve(rows, _toward, fast=fast, target_speed=speed)
+            known = [k for k in (*SHARE_NEIGHBORS, AGENTS - 1) if k in heading.x]
+            for k, more in zip(known, known[1:], strict=False):
+                rises[f"k {k} to {more}, {swarm}, {speed:g} m/s"] = heading.at(more) - heading.at(k)
+    text = "agents that head for the target change at least by {}"
+    return _claim("C8", above_zero(rises), text, "phi_histograms", "agents", digits=2)
+
+
+def c9(rows: Sequence[Row]) -> Claim:
+    """Cases: stationary agents with the fast less with the slow target, at k = 10, 20, 30, 40, of both swarms."""
+    slow, *faster = values_of(rows, "target_speed")
+    more = {}
+    for speed in faster[-1:]:
+        for fast, swarm in SWARMS.items():
+            before, after = (curve(rows, "stationary", fast=fast, target_speed=each) for each in (slow, speed))
+            change = after.minus(before)
+            more |= {f"k = {k}, {swarm}": AGENTS * change.at(k) for k in SHARE_NEIGHBORS if k in change.x}
+    return _claim("C9", above_zero(more), "the least difference is {}", "phi_histograms", "agents", digits=2)
+
+
+def c10(rows: Sequence[Row]) -> Claim:
+    """Cases: stationary agents of the mixed less of the all-slow swarm at k = 20, at each speed."""
+
+    def cases_of(metric: Metric, factor: float) -> list[Case]:
+        gains = {speed: _gain(rows, speed, metric) for speed in values_of(rows, "target_speed")}
+        return above_zero({f"{speed:g} m/s": factor * gain.at(20) for speed, gain in gains.items() if 20 in gain.x})
+
+    note = f"; by the whole bin at phi = 0, {counted(cases_of(_around_zero, 1.0))}"
+    text = "the mixed swarm has {} more"
+    return _claim("C10", cases_of("stationary", AGENTS), text, "phi_histograms", "agents", digits=2, note=note)
+
+
+def c11(rows: Sequence[Row], placement: Sequence[Row]) -> Claim:
+    """Cases: time on target with the fast fleet starting in a corner or at the center less uniform, in +- 0.01."""
+    changes = {}
+    for speed in values_of(placement, "target_speed"):
+        uniform = curve(rows, "time_on_target", fast=MIXED, target_speed=speed)
+        for start in START_PLACES:
+            moved = curve(placement, "time_on_target", target_speed=speed, **{"fleets.BoB-1.start": start})
+            change = moved.minus(uniform)
+            changes |= {f"{start}, {_place(k, speed)}": change.at(k) for k in change.x}
+    numbers = intervals(list(changes.values()))
+    cases = [Case(name, each, within(each, -SAME, SAME)) for name, each in zip(changes, numbers, strict=True)]
+    return _claim("C11", _percent(cases), "the largest change is {}", "tot_k", "% points", aim=0.0, digits=2)
+
+
+def c12(episodes: Sequence[Episode]) -> Claim:
+    """Cases: every cluster seen; true if it dispersed, false if it did not in five times the longest that did, open if
+    the run ended before. With fewer than three clusters, undecided.
+    """
+    lasted = [each.steps for each in episodes if each.dispersed]
+    longest = max(lasted, default=0)
+    number = bootstrap(lasted, np.median)
+    cases = [
+        Case("", number, True if each.dispersed else (False if each.steps > 5 * longest else None)) for each in episodes
+    ]
+    verdict = verdict_of(cases) if len(episodes) >= 3 else "undecided"
+    measured = (
+        f"{len(lasted)} of {len(episodes)} clusters dispersed within the run; they lasted "
+        f"{told_number(number, 0)} steps (median), at most {longest}"
+    )
+    return Claim("C12", STATEMENTS["C12"], measured, *number, "steps", verdict, "clustering")
+
+
+def c13(rows: Sequence[Row], steps: int) -> Claim:
+    """Cases: standard deviation over runs / mean, root mean square over all cells, of time on target and of Xi, below
+    0.3 %. Undecided for runs shorter than the claim's.
+    """
+    cases, notes = [], []
+    for metric, name in (("time_on_target", "time on target"), ("xi", "Xi")):
+        cells = _cells(rows, metric)
+        deviations = np.array([each.std(ddof=1) / each.mean() for each in cells])
+        number = bootstrap(deviations, lambda values, axis: np.sqrt(np.mean(values**2, axis=axis)))
+        cases += _percent([Case(name, number, within(number, 0.0, SPREAD) if steps >= FULL_STEPS else None)])
+        spans = np.mean([np.ptp(each) / each.mean() for each in cells]) if cells else np.nan
+        notes.append(f"{told(cases[-1], ' %', 2)}, largest less smallest {100 * spans:.1f} %")
+    measured = f"standard deviation / mean over runs of {steps:,} steps: {'; '.join(notes)}"
+    highest = max(cases, key=lambda case: case.number.value)
+    return Claim("C13", STATEMENTS["C13"], measured, *highest.number, "%", verdict_of(cases), "tot_k")

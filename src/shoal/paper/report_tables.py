@@ -1,0 +1,145 @@
+"""Tables of the report: the claims, and whatever else was tabulated, intervals beside their values."""
+
+import math
+from collections.abc import Mapping, Sequence
+from html import escape
+from typing import Any
+
+from shoal.paper.results import Claim, Row
+
+BADGES = {  # a sign and a class for each verdict: color is never the only one
+    "holds": ("\u2713", "holds"),
+    "holds partly": ("\u25d0", "partly"),
+    "does not hold": ("\u2717", "fails"),
+    "undecided": ("?", "open"),
+}
+_DASH = "\u2013"
+
+# Words and units of columns; others are shown as they are called.
+COLUMNS: dict[str, tuple[str, str]] = {
+    "neighbors": ("k", ""),
+    "fast": ("fast buoys", "of 50"),
+    "target_speed": ("target", "m/s"),
+    "time_on_target": ("time on target", ""),
+    "xi": ("Ξ", ""),
+    "response": ("response", "unit/step"),
+}
+_METRIC_WORDS = {"time_on_target": "time on target", "xi": "Ξ", "response": "response [unit/step]"}
+
+
+def badge(verdict: str) -> str:
+    """A verdict as a colored label."""
+    sign, name = BADGES.get(verdict, ("", "open"))
+    return f'<span class="badge {name}"><span aria-hidden="true">{sign}</span> {escape(verdict)}</span>'
+
+
+def claims_table(claims: Sequence[Claim], titles: Mapping[str, str]) -> str:
+    """The claims with what was measured and the verdict; `titles` are those of the figures in the report, by name."""
+    rows = "".join(
+        f'<tr id="claim-{escape(claim.id)}"><td>{escape(claim.id)}</td><td>{escape(claim.statement)}</td>'
+        f'<td>{escape(claim.measured)}<span class="key">{key_number(claim)}</span></td>'
+        f"<td>{badge(claim.verdict)}</td><td>{_figure_link(claim.figure, titles)}</td></tr>\n"
+        for claim in claims
+    )
+    return (
+        '<table class="claims"><thead><tr><th>Claim</th><th>What the paper says</th>'
+        "<th>What the runs say</th><th>Verdict</th><th>Read from</th></tr></thead>\n"
+        f"<tbody>\n{rows}</tbody></table>"
+    )
+
+
+def key_number(claim: Claim) -> str:
+    """The key number of a claim with its interval and unit, or nothing if there is none."""
+    if not math.isfinite(claim.value):
+        return ""
+    unit = "" if claim.unit in ("", "1") else f" {escape(claim.unit)}"
+    return f"Key number: {interval_text(claim.value, claim.low, claim.high)}{unit}"
+
+
+def data_table(rows: Sequence[Row], title: str) -> str:
+    """Rows as a table; a column X with X_low and X_high, or one before low and high, gets its interval beside it."""
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    intervals = _intervals(names)
+    bounds = {bound for pair in intervals.values() for bound in pair}
+    shown = [name for name in names if name not in bounds]
+    numeric = {name: any(_is_number(row.get(name)) for row in rows) for name in shown}
+    head = "".join(_heading(name, numeric[name], name in intervals) for name in shown)
+    body = "".join(
+        "<tr>" + "".join(_cell(row, name, numeric[name], intervals.get(name)) for name in shown) + "</tr>\n"
+        for row in rows
+    )
+    return (
+        f'<div class="scroll"><table><caption>{escape(title)}</caption><thead><tr>{head}</tr></thead>\n'
+        f"<tbody>\n{body}</tbody></table></div>"
+    )
+
+
+def interval_text(value: float, low: float, high: float) -> str:
+    """0.832 [0.829, 0.835]: to two digits of the interval's half-width."""
+    if not (math.isfinite(low) and math.isfinite(high)):
+        return number_text(value)
+    half = (high - low) / 2
+    decimals = min(max(1 - math.floor(math.log10(half)), 0), 5) if half > 0 else 3
+    told = [f"{each:.{decimals}f}" for each in (value, low, high)] if half > 0 else [f"{value:.4g}"] * 3
+    return f"{told[0]} [{told[1]}, {told[2]}]".replace("-", "\u2212")
+
+
+def number_text(value: Any) -> str:
+    """A number to four digits, whole ones whole; a dash where there is none."""
+    if isinstance(value, float) and not math.isfinite(value):
+        return _DASH
+    text = str(value) if isinstance(value, int) else f"{value:.4g}"
+    return text.replace("-", "\u2212")
+
+
+def _intervals(names: Sequence[str]) -> dict[str, tuple[str, str]]:
+    """{column: its columns of the lower and the upper bound}."""
+    found = {
+        name: (f"{name}_low", f"{name}_high") for name in names if f"{name}_low" in names and f"{name}_high" in names
+    }
+    for at, name in enumerate(names[:-2]):
+        if (names[at + 1], names[at + 2]) == ("low", "high"):
+            found[name] = ("low", "high")
+    return found
+
+
+def _heading(name: str, numeric: bool, interval: bool) -> str:
+    words, unit = COLUMNS.get(name, (name.replace("_", " "), ""))
+    small = ", ".join(part for part in (unit, "95 % interval" if interval else "") if part)
+    told = f'<span class="unit">{escape(small)}</span>' if small else ""
+    return f"<th{_numeric(numeric)}>{escape(words)}{told}</th>"
+
+
+def _cell(row: Row, name: str, numeric: bool, interval: tuple[str, str] | None) -> str:
+    value = row.get(name)
+    if value is None or value == "":
+        text = _DASH
+    elif name == "verdict":
+        text = badge(str(value))
+    elif isinstance(value, bool):
+        text = "yes" if value else "no"
+    elif _is_number(value) and interval is not None:
+        text = interval_text(float(value), *(_float(row.get(bound)) for bound in interval))
+    elif isinstance(value, (int, float)):
+        text = number_text(value)
+    else:
+        text = escape(_METRIC_WORDS.get(str(value), str(value)))
+    return f"<td{_numeric(numeric)}>{text}</td>"
+
+
+def _figure_link(name: str, titles: Mapping[str, str]) -> str:
+    if name not in titles:
+        return escape(name) or _DASH
+    return f'<a href="#figure-{escape(name)}">{escape(titles[name])}</a>'
+
+
+def _numeric(numeric: bool) -> str:
+    return ' class="number"' if numeric else ""
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _float(value: Any) -> float:
+    return float(value) if _is_number(value) else math.nan

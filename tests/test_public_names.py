@@ -1,0 +1,28 @@
+"""import shoal gives what it says, whatever was imported before."""
+
+import subprocess
+import sys
+
+import pytest
+
+import shoal
+
+
+@pytest.mark.parametrize("name", shoal.__all__)
+def test_every_public_name_is_there(name):
+    assert getattr(shoal, name) is not None
+
+
+def test_a_name_that_is_not_there_is_answered_with_those_that_are():
+    with pytest.raises(AttributeError, match="it has: .*simulate"):
+        shoal.simulator  # noqa: B018
+
+
+def test_simulate_is_a_function_after_every_module_was_imported():
+    script = (
+        "import importlib, pkgutil, shoal\n"
+        "for module in pkgutil.walk_packages(shoal.__path__, 'shoal.'):\n"
+        "    if '__main__' not in module.name: importlib.import_module(module.name)\n"
+        "assert all(callable(getattr(shoal, name)) or name.startswith('_') for name in shoal.__all__ if name[0].islower())"
+    )
+    subprocess.run([sys.executable, "-c", script], check=True)
