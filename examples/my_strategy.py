@@ -13,7 +13,7 @@ class Wander(NamedTuple):
 
 def keep_apart(me, other, params):
     dx, dy = me.x - other.x, me.y - other.y
-    distance = math.hypot(dx, dy) + 1e-9
+    distance = math.sqrt(dx * dx + dy * dy) + 1e-9
     push = max(0.0, params.spacing / distance - 1.0)
     return push * dx, push * dy
 

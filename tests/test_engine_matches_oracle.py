@@ -5,7 +5,6 @@ a common state agrees to 1e-12 m, 30 steps on their own to 1e-8 m.
 """
 
 import dataclasses
-import math
 
 import numpy as np
 import pytest

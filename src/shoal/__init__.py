@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from shoal.experiments.results import load_results
     from shoal.record.files import open_record, save_record
     from shoal.record.record import Record
+    from shoal.runs import simulate
     from shoal.scenario.load import load, presets, to_toml
     from shoal.scenario.schema import Scenario
-    from shoal.runs import simulate
     from shoal.simulation import Simulation
     from shoal.strategies import strategy
 

@@ -126,7 +126,9 @@ def _run_all(
     with ThreadPoolExecutor(min(runs, jobs)) as pool:
         tasks = [pool.submit(one, run) for run in range(runs)]
         try:
-            wait(tasks, return_when=FIRST_EXCEPTION)
+            finished = wait(tasks, return_when=FIRST_EXCEPTION).done
+            for task in finished:
+                task.result()  # raises what ended it, without waiting for the others
             return [task.result() for task in tasks]
         except BaseException:
             stop.set()  # every thread ends at its next chunk

@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from shoal.metrics.tally import new_tally
 from shoal.record.trajectory import Trajectory
 from shoal.scenario.schema import Scenario, StillTarget, TrackTarget, WaypointTarget
 from shoal.scenario.tracks import Track, read_track
-from shoal.strategies import CATALOGUE
+from shoal.strategies import Strategy
 from shoal.version import RESULTS_VERSION
 from shoal.world.arena import World
 from shoal.world.placement import PLACES
@@ -52,7 +53,7 @@ class Simulation:
         self.scenario = scenario
         self.run = run
         self.number = 0
-        strategy = CATALOGUE[scenario.strategy.name]
+        strategy = scenario.strategy.owner
         self.memory_fields = tuple(strategy.memory)
         self.params = scenario.strategy.kernel_params()
         self.world = _build_world(scenario)
@@ -61,7 +62,7 @@ class Simulation:
         self.notes = [note for track in tracks for note in track.notes]
         self.targets, self.tracks = _build_targets(scenario, tracks)
         self.tally = new_tally(min(BATCHES, scenario.steps), len(scenario.fleets))
-        self._begin, self._rollout = _compiled(scenario.strategy.name)
+        self._begin, self._rollout = _compiled(strategy)
         self._seed = np.uint64(scenario.seed)
         places = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
         self._begin(self.world, self.swarm, self.targets, self.tracks, places, self.params, self._seed, run)
@@ -138,7 +139,7 @@ class Simulation:
                         part[...] = state[f"{group}.{name}"]
                 self.targets[...] = state["targets"]
                 self.number = int(state["number"])
-        except (OSError, ValueError, KeyError) as error:
+        except (OSError, ValueError, KeyError, EOFError, BadZipFile) as error:
             if isinstance(error, RecordError):
                 raise
             raise RecordError(
@@ -186,12 +187,12 @@ def count_frames(first: int, last: int, every: int | None, tail: int) -> int:
 
 def needs_compiling(scenario: Scenario) -> bool:
     """Whether the first step will compile the engine for this strategy (once per version, about 10 s)."""
-    return not CATALOGUE[scenario.strategy.name].builtin or not _compiled_mark(scenario.strategy.name).exists()
+    return not scenario.strategy.owner.builtin or not _compiled_mark(scenario.strategy.name).exists()
 
 
 def mark_compiled(scenario: Scenario) -> None:
     """Remember that this strategy's engine is in the cache."""
-    if CATALOGUE[scenario.strategy.name].builtin:
+    if scenario.strategy.owner.builtin:
         try:
             _compiled_mark(scenario.strategy.name).touch()
         except OSError:
@@ -205,9 +206,8 @@ def _compiled_mark(name: str) -> Path:
 _UNCACHED: dict[type[Any], tuple[Any, Any]] = {}
 
 
-def _compiled(name: str) -> tuple[Any, Any]:
+def _compiled(strategy: Strategy) -> tuple[Any, Any]:
     """begin_run and rollout: from the cache for our own strategies, fresh ones for a user's."""
-    strategy = CATALOGUE[name]
     if strategy.builtin:
         return begin_run, rollout
     if strategy.params not in _UNCACHED:
@@ -254,7 +254,7 @@ def open_tracks(scenario: Scenario) -> list[Track]:
 
 def _build_targets(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Any, Tracks]:
     """One record per target; the fixes of recorded ones behind each other."""
-    targets = np.zeros(len(scenario.targets), TARGET)
+    targets = np.zeros(len(scenario.targets), TARGET).view(np.recarray)
     unread = list(tracks)
     first_fix = 0
     for record, target in zip(targets, scenario.targets, strict=True):

@@ -30,6 +30,8 @@ def printed(**environment):
 class TestPlainPython:
     """NUMBA_DISABLE_JIT=1."""
 
-    @pytest.mark.xfail(strict=True, reason="src: targets are no recarray, so target.kind is no attribute in plain Python")
+    @pytest.mark.xfail(
+        strict=True, reason="src: targets are no recarray, so target.kind is no attribute in plain Python"
+    )
     def test_gives_the_same_bits(self):
         assert printed(NUMBA_DISABLE_JIT="1") == printed()

@@ -52,7 +52,9 @@ class TestWords:
     def test_may_be_written_in_many_ways(self, text):
         assert read(MetersPerSecond, text) == pytest.approx(5 * 1852 / 3600)
 
-    @pytest.mark.parametrize("text", ["kn", "", "5", "five kn", "5 knots", "5 m", "5 kn kn", "5 KN", "5 kn/h", BAD_NUMBER])
+    @pytest.mark.parametrize(
+        "text", ["kn", "", "5", "five kn", "5 knots", "5 m", "5 kn kn", "5 KN", "5 kn/h", BAD_NUMBER]
+    )
     def test_that_are_no_speed_are_refused_with_the_units_there_are(self, text):
         with pytest.raises(ValidationError, match="m/s, kn, kt, km/h"):
             read(MetersPerSecond, text)

@@ -201,7 +201,8 @@ def known(damage):
     if damage not in ESCAPES:
         return damage
     reason = f"src: open_record lets {ESCAPES[damage]} through"
-    return pytest.param(damage, marks=pytest.mark.xfail(strict=True, reason=reason))
+    leaves_a_file_open = "Zip" in ESCAPES[damage]  # a warning in some later test
+    return pytest.param(damage, marks=pytest.mark.xfail(strict=True, reason=reason, run=not leaves_a_file_open))
 
 
 class TestDamage:

@@ -1,6 +1,7 @@
 """A mean and an interval that holds what it promises."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -34,7 +35,7 @@ class TestQuantile:
 
     def test_falls_with_every_degree_down_to_the_normal_one(self):
         quantiles = [t_quantile(degrees) for degrees in range(1, 3000)]
-        assert all(later <= earlier for earlier, later in zip(quantiles, quantiles[1:], strict=False))
+        assert all(later <= earlier for earlier, later in pairwise(quantiles))
         assert quantiles[-1] > 1.959964
 
 

@@ -38,12 +38,15 @@ def nearest_by_sorting(x, y, neighbors):
     return linked
 
 
-def swarms(sizes=st.integers(2, 70)):
+def swarms(most=70):
     """x, y, k of each agent: scattered, on a grid, in heaps, or with one far outside."""
 
     @st.composite
     def build(draw):
-        agents, kind = draw(sizes), draw(st.sampled_from(["scattered", "grid", "heaps", "one far", "many scales"]))
+        agents, kind = (
+            draw(st.integers(2, most)),
+            draw(st.sampled_from(["scattered", "grid", "heaps", "one far", "many scales"])),
+        )
         rng = np.random.default_rng(draw(st.integers(0, 2**32)))
         xy = {
             "scattered": lambda: rng.uniform(-10, 10, (2, agents)),
@@ -97,7 +100,7 @@ class TestNearest:
         assert (linked[:, : len(x)] == nearest_by_sorting(x, y, k)).all()
         assert linked[:, len(x) :].all()
 
-    @given(swarm=swarms(st.integers(2, 40)), reach=GUESSES)
+    @given(swarm=swarms(40), reach=GUESSES)
     @settings(max_examples=100)
     def test_of_one_listener_at_a_time(self, swarm, reach):
         """As the sequential order asks; the guess is another agent's reach."""

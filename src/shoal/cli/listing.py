@@ -35,7 +35,7 @@ def strategies(*, json_: Annotated[bool, Parameter(name="--json", negative=())] 
                 "name": each.name,
                 "summary": each.summary,
                 "memory": each.memory,
-                "parameters": params_model(each.name).model_json_schema()["properties"],
+                "parameters": params_model(each).model_json_schema()["properties"],
             }
             for each in known
         ]

@@ -72,8 +72,8 @@ def run(
         Print one JSON object and nothing else.
     """
     from shoal.core.errors import ScenarioError
-    from shoal.scenario.load import scenario_from
     from shoal.runs import simulate
+    from shoal.scenario.load import scenario_from
     from shoal.simulation import needs_compiling
 
     changes: dict[str, Any] = {

@@ -12,7 +12,7 @@ _TO_SI: dict[str, dict[str, float]] = {
     "deg": {"deg": 1.0, "rad": 57.29577951308232},
 }
 
-_QUANTITY = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?\d+)?)\s*([A-Za-z/]+)\s*")
+_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z/]+)\s*")
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,8 @@ class Unit:
         ------
         ValueError : a string that is no quantity, or one in a unit of another kind
         """
+        if isinstance(value, bool):
+            raise ValueError(f"{value} is no quantity in {self.symbol}; write a number")
         if not isinstance(value, str):
             return value
         match = _QUANTITY.fullmatch(value)

@@ -60,7 +60,7 @@ def rollout(world, swarm, targets, tracks, params, tally, seed, run, first, last
             _keep_frame(frames, frame, number, world, swarm, targets)
             frame += 1
         step_key = split(run_key, number)
-        batch = number * batches // steps
+        batch = min(number * batches // steps, batches - 1)
         step(world, swarm, targets, tracks, params, tally, batch, step_key, number, scratch)
 
 

@@ -7,9 +7,9 @@ from typing import Any
 
 from shoal.core.errors import ShoalError
 from shoal.metrics.summary import METRICS, fleet_fluctuation, fleet_stationary, phi_histogram
+from shoal.runs import chunk_steps
 from shoal.scenario.load import scenario_from
 from shoal.scenario.schema import Scenario
-from shoal.runs import chunk_steps
 from shoal.simulation import Simulation, facts_of
 
 Row = dict[str, Any]

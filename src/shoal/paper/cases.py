@@ -1,12 +1,12 @@
 """The cases of a claim and the verdict that they add up to.
 
 A case (a k, a target speed, a swarm) is true where its 95 % interval lies inside what the claim says, false where it
-lies outside, open where it does both. All true: the claim holds. Some true and some false, or at least half true and
-none false: it holds partly. None true and some false: it does not hold. Else it is undecided.
+lies outside, open where it does both. All true: the claim holds. At least half true: it holds partly. Else, at least
+half false: it does not hold. Else it is undecided.
 """
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from shoal.paper.curves import Floats, Interval, intervals
@@ -21,11 +21,21 @@ class Case(NamedTuple):
     true: bool | None
 
 
-def above_zero(differences: Mapping[str, Floats]) -> list[Case]:
-    """Cases that are true where a difference, given in every seed (R,), is above zero."""
-    known = {name: values for name, values in differences.items() if values.size}
-    numbers = intervals(list(known.values()))
-    return [Case(name, number, positive(number)) for name, number in zip(known, numbers, strict=True)]
+def judge(numbers: Mapping[str, Floats], test: Callable[[Interval], bool | None]) -> list[Case]:
+    """Cases by a test of the interval of each number, which is given in every seed (R,)."""
+    known = {name: values for name, values in numbers.items() if values.size}
+    found = intervals(list(known.values()))
+    return [Case(name, number, test(number)) for name, number in zip(known, found, strict=True)]
+
+
+def rising(differences: Mapping[str, Floats]) -> list[Case]:
+    """Cases that are true where a difference is above zero."""
+    return judge(differences, positive)
+
+
+def percent(cases: Sequence[Case]) -> list[Case]:
+    """The same cases with their numbers in percent."""
+    return [case._replace(number=case.number.times(100)) for case in cases]
 
 
 def positive(number: Interval) -> bool | None:
@@ -46,9 +56,9 @@ def verdict_of(cases: Iterable[Case]) -> Verdict:
     true, false = truths.count(True), truths.count(False)
     if truths and true == len(truths):
         return "holds"
-    if true and (false or 2 * true >= len(truths)):
+    if truths and 2 * true >= len(truths):
         return "holds partly"
-    return "does not hold" if false else "undecided"
+    return "does not hold" if truths and 2 * false >= len(truths) else "undecided"
 
 
 def worst(cases: Sequence[Case], aim: float | None = None) -> Case:

@@ -43,8 +43,8 @@ def watch_clusters(steps: int, runs: int, target_speeds: tuple[float, ...]) -> l
 def closeness(frames: Trajectory, agents: slice) -> Floats:
     """Root mean square distance of some agents from their own center / that of the swarm, in every frame (K,).
 
-    1 where they are spread like the swarm, 0 where they are in one place. Relative, since the whole swarm draws together
-    when it is on target.
+    1 where they are spread like the swarm, 0 where they are in one place. Relative, since the whole swarm draws
+    together when it is on target.
     """
     return _radius(frames.x[:, agents], frames.y[:, agents]) / _radius(frames.x, frames.y)
 

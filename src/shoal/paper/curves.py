@@ -102,6 +102,15 @@ def curve(rows: Iterable[Row], metric: Metric, along: str = "neighbors", **where
     return Curve(np.array(x), runs)
 
 
+def cells(rows: Iterable[Row], metric: str) -> list[Floats]:
+    """The values in all seeds of each combination of fast, neighbors and target_speed that has two or more."""
+    found: dict[tuple[object, ...], list[float]] = {}
+    for row in rows:
+        if row.get("status", "done") == "done":
+            found.setdefault((row["fast"], row["neighbors"], row["target_speed"]), []).append(row[metric])
+    return [np.array(values) for values in found.values() if len(values) > 1]
+
+
 def values_of(rows: Iterable[Row], field: str) -> list[float]:
     """The values of a field, each once, sorted."""
     return sorted({row[field] for row in rows if row.get(field) is not None})

@@ -5,12 +5,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shoal.paper.figures_peaks import Peak, peak_of
+from shoal.paper.figures_peaks import PeakMark, peak_of
 from shoal.paper.figures_series import (
-    AGENTS,
     ALL_SLOW,
     DOUBLE,
-    MIXED,
     Quantity,
     curve,
     levels,
@@ -23,6 +21,7 @@ from shoal.paper.figures_series import (
     swarm_text,
     where,
 )
+from shoal.paper.plan import AGENTS, MIXED
 from shoal.paper.results import Figure, Row
 from shoal.viz.legend import headroom
 from shoal.viz.style import FLEET_COLORS, INK, new_figure, style
@@ -91,7 +90,7 @@ def k_figure(rows: Sequence[Row], name: str, title: str, quantity: Quantity, sym
         figure = new_figure(DOUBLE if len(speeds) > 1 else 0.62 * DOUBLE, 3.35)
         figure.set_layout_engine("constrained", h_pad=0.06, w_pad=0.06)
         panels = figure.subplots(1, len(speeds), squeeze=False, sharey=True)[0]
-        peaks: list[tuple[Any, str, str, Peak]] = []
+        peaks: list[tuple[Any, str, str, PeakMark]] = []
         for j, speed in enumerate(speeds):
             for fast, color, marker in zip(swarms, _SWARM_COLORS, _MARKERS, strict=False):
                 cell = where(rows, fast=fast, target_speed=speed)
@@ -102,11 +101,11 @@ def k_figure(rows: Sequence[Row], name: str, title: str, quantity: Quantity, sym
                 data += points.rows("neighbors", quantity, fast=fast, target_speed=speed)
                 if peak:
                     peaks.append((panels[j], color, marker, peak))
-                    data.append(peak.row(quantity, symbol, fast=fast, target_speed=speed))
+                    data += peak.rows(quantity, fast=fast, target_speed=speed)
             _label_panel(panels[j], 0, j, quantity, speed)
             panels[j].set_xlabel("number of neighbors k")
             panels[j].set_xticks([2, 10, 20, 30, 40, 49])
-        show_means(panels[0], [row for row in data if "height" not in row])
+        show_means(panels[0], [row for row in data if row["quantity"] == quantity.name])
         _draw_peaks(peaks)
         figure.draw_without_rendering()  # panels take their places
         _legends_above(panels)
@@ -130,7 +129,7 @@ def _swarms_with_ks(rows: Sequence[Row]) -> list[int]:
     return [fast for fast in (MIXED, ALL_SLOW) if len(levels(where(rows, fast=fast), "neighbors")) > 1]
 
 
-def _draw_peaks(peaks: list[tuple["Axes", str, str, Peak]]) -> None:
+def _draw_peaks(peaks: list[tuple["Axes", str, str, PeakMark]]) -> None:
     """Under the curves, the place of each peak with its interval; a dotted line leads there."""
     if not peaks:
         return
@@ -141,9 +140,12 @@ def _draw_peaks(peaks: list[tuple["Axes", str, str, Peak]]) -> None:
     for panel, color, marker, peak in peaks:
         lane = lanes[panel] = lanes.get(panel, 0) + 1
         y = bottom - (lane - 0.25) * step
-        panel.plot([peak.x, peak.x], [y, peak.height], ":", color=color, linewidth=1.0, zorder=2.5)
-        panel.plot([peak.low, peak.high], [y, y], "-", color=color, linewidth=2.2, solid_capstyle="butt", zorder=3)
-        panel.plot([peak.x], [y], marker, color=color, markeredgecolor=INK, markeredgewidth=0.7, markersize=5, zorder=4)
+        at = peak.place.value
+        panel.plot([at, at], [y, peak.height.value], ":", color=color, linewidth=1.0, zorder=2.5)
+        panel.plot(
+            [peak.place.low, peak.place.high], [y, y], color=color, linewidth=2.2, solid_capstyle="butt", zorder=3
+        )
+        panel.plot([at], [y], marker, color=color, markeredgecolor=INK, markeredgewidth=0.7, markersize=4, zorder=4)
     ticks = [tick for tick in axes.get_yticks() if bottom <= tick <= top]
     axes.set_ylim(bottom - (max(lanes.values()) + 0.5) * step, top)
     axes.set_yticks(ticks)

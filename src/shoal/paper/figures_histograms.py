@@ -7,11 +7,10 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.metrics.heading_bearing import CENTERS
+from shoal.paper.curves import intervals
 from shoal.paper.figures_series import (
-    AGENTS,
     ALL_SLOW,
     DOUBLE,
-    MIXED,
     Quantity,
     levels,
     plain_rows,
@@ -19,8 +18,8 @@ from shoal.paper.figures_series import (
     swarm_text,
     where,
 )
+from shoal.paper.plan import AGENTS, MIXED
 from shoal.paper.results import Figure, Row
-from shoal.record.statistics import estimate
 from shoal.viz.style import INK, fleet_color, new_figure, style
 
 if TYPE_CHECKING:
@@ -62,7 +61,7 @@ def phi_figure(rows: Sequence[Row]) -> Figure | None:
             _label_phi(axes)
         figure.supylabel("mean agents per step", fontsize=8.5)
         handles, names = _legend(panels[0, 0])
-        figure.legend(handles, names, loc="outside upper right", ncols=len(names), borderaxespad=0.2)
+        figure.legend(handles, names, loc="outside upper left", ncols=len(names), borderaxespad=0.2)
     return Figure(
         "phi_histograms", "Where agents head: heading\u2013bearing correlation φ", _caption(known), figure, data
     )
@@ -97,11 +96,10 @@ def _draw_panel(axes: "Axes", cell: Sequence[Row], labels: dict[str, Any]) -> li
             {**labels, "agents": _FLEETS[fleet], "phi": at, "unit": _UNIT, "mean": height, "runs": len(cell)}
             for at, height in zip(_PHI, heights.tolist(), strict=True)
         ]
-    totals = [estimate(values) for values in np.array([row["phi_histogram"] for row in cell]).T]
-    for left, right, at, total in zip(EDGES[:-1], EDGES[1:], _PHI, totals, strict=True):
-        low, high = total.ci95 or (np.nan, np.nan)
+    totals = intervals(list(np.array([row["phi_histogram"] for row in cell]).T))
+    for left, right, at, (mean, low, high) in zip(EDGES[:-1], EDGES[1:], _PHI, totals, strict=True):
         axes.vlines((left + right) / 2, low, high, color=INK, linewidth=0.9)
-        data.append({**labels, "agents": "all", "phi": at, "unit": _UNIT, "mean": total.mean,
+        data.append({**labels, "agents": "all", "phi": at, "unit": _UNIT, "mean": mean,
                      "low": low, "high": high, "runs": len(cell)})  # fmt: skip
     still = series(cell, "neighbors", _STATIONARY)
     if still.mean:

@@ -1,38 +1,42 @@
-"""Where a curve over k peaks, and how sure that is."""
+"""Where a curve over k peaks, as a figure shows it; found as the claims find it."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from shoal.paper.figures_series import Quantity, series
+from shoal.paper.cases import told_number
+from shoal.paper.curves import Interval, curve, peak
+from shoal.paper.figures_series import Quantity
 from shoal.paper.results import Row
 
 
 @dataclass(frozen=True)
-class Peak:
-    """The k at which a curve peaks, and the height there in the unit of the figure, with 95 % intervals."""
+class PeakMark:
+    """The k at which a curve peaks, and the height there in the unit of the figure; bounds are NaN with one seed."""
 
-    x: float
-    low: float
-    high: float
-    height: float
-    height_low: float
-    height_high: float
+    place: Interval
+    height: Interval
+    at_edge: bool
 
     @property
     def text(self) -> str:
-        """18 [16, 20]."""
-        return f"{self.x:.3g} [{self.low:.3g}, {self.high:.3g}]"
+        """18.2 [16.9, 19.5]."""
+        return told_number(self.place) + (" (edge)" if self.at_edge else "")
 
-    def row(self, quantity: Quantity, symbol: str, **labels: Any) -> Row:
-        """The row of the table behind a figure."""
-        return {**labels, "neighbors": self.x, "quantity": f"{symbol} of {quantity.name}", "unit": "1",
-                "mean": self.x, "low": self.low, "high": self.high, "height": self.height}  # fmt: skip
+    def rows(self, quantity: Quantity, **labels: Any) -> list[Row]:
+        """Place and height, for the table behind a figure."""
+        place = {**labels, "quantity": f"k of the peak of {quantity.name}", "unit": "1"}
+        height = {**labels, "quantity": f"{quantity.name} at its peak", "unit": quantity.unit or "1"}
+        return [
+            {**what, "mean": number.value, "low": number.low, "high": number.high}
+            for what, number in ((place, self.place), (height, self.height))
+        ]
 
 
-def peak_of(rows: Sequence[Row], quantity: Quantity) -> Peak | None:
-    p = series(rows, "neighbors", quantity)
-    if len(p.x) < 3:
+def peak_of(rows: Sequence[Row], quantity: Quantity) -> PeakMark | None:
+    """The peak over k of a quantity in the rows of one swarm and target speed; None with fewer than four k."""
+    found = peak(curve([row for row in rows if row.get(quantity.column) is not None], quantity.column))
+    if not math.isfinite(found.place.value):
         return None
-    i = p.mean.index(max(p.mean))
-    return Peak(p.x[i], p.x[max(i - 1, 0)], p.x[min(i + 1, len(p.x) - 1)], p.mean[i], p.low[i], p.high[i])
+    return PeakMark(found.place, found.height.times(quantity.factor), found.at_edge)

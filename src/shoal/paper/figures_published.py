@@ -63,7 +63,7 @@ def published_figure(rows: Sequence[Row], published: Sequence[Row]) -> Figure | 
     caption = (
         "The homogeneous predecessor (AAMAS 2020): time on target and response of 50 equal buoys against k. Crosses "
         "are the published values, for adaptive repulsion. Below, measured less published with the 95 % interval; the "
-        f"gray band is the tolerance. {seeds_text(rows)}"
+        f"gray band is what is tolerated. {seeds_text(rows)}"
     )
     return Figure("published", "The predecessor's published curves", caption, figure, data)
 
@@ -123,7 +123,7 @@ def _draw_residuals(axes: "Axes", published: Sequence[Row], quantity: Quantity) 
             for at, each in tolerance
         ]
     reach = max([1.4 * abs(row["mean"]) for row in data] + [2.2 * half for _, half in tolerance], default=1.0)
-    axes.set_ylim(-reach or -1.0, reach or 1.0)  # bars, very wide with two seeds, may reach out
+    axes.set_ylim(-reach or -1.0, reach or 1.0)  # bars may reach out
     return data
 
 

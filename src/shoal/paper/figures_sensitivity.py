@@ -3,11 +3,10 @@
 from collections.abc import Sequence
 from typing import Any
 
-from shoal.paper.figures_peaks import Peak, peak_of
+from shoal.paper.figures_peaks import peak_of
 from shoal.paper.figures_series import (
     ALL_SLOW,
     DOUBLE,
-    MIXED,
     TIME_ON_TARGET,
     XI,
     Quantity,
@@ -17,13 +16,14 @@ from shoal.paper.figures_series import (
     swarm_text,
     where,
 )
+from shoal.paper.plan import MIXED
 from shoal.paper.results import Figure, Row
 from shoal.viz.style import FLEET_COLORS, new_figure, style
 
 _SWARMS = {MIXED: (FLEET_COLORS[0], "o", 0.17), ALL_SLOW: (FLEET_COLORS[2], "s", -0.17)}
 _PANELS: tuple[tuple[Quantity, str, str], ...] = (
-    (TIME_ON_TARGET, "k* (time on target peaks)", "k"),
-    (XI, "k of the peak of Ξ", "k"),
+    (TIME_ON_TARGET, "k* (time on target peaks)", "place"),
+    (XI, "k of the peak of Ξ", "place"),
     (TIME_ON_TARGET, "time on target at k* [%]", "height"),
 )
 
@@ -55,9 +55,10 @@ def sensitivity_figure(rows: Sequence[Row]) -> Figure | None:
                     peak = peaks.get((name, fast, quantity.column))
                     if peak is None:
                         continue
-                    at, low, high = _shown(peak, what)
+                    at, low, high = peak.place if what == "place" else peak.height
                     axes.plot([low, high], [line - shift] * 2, color=color, linewidth=1.8, solid_capstyle="butt")
-                    axes.plot([at], [line - shift], marker, color=color, markersize=4.5)
+                    face = "white" if peak.at_edge else color
+                    axes.plot([at], [line - shift], marker, color=color, markerfacecolor=face, markersize=4.5)
                     data.append(
                         {"variant": name, "fast": fast, "quantity": label, "value": at, "low": low, "high": high}
                     )
@@ -73,19 +74,15 @@ def sensitivity_figure(rows: Sequence[Row]) -> Figure | None:
         for axes in panels:
             axes.tick_params(axis="y", length=0)
         figure.legend(handles=_signs(), loc="outside upper left", ncols=2, borderaxespad=0.2)
+    seeds = len({row.get("run") for row in rows})
     caption = (
         "What the paper does not say, decided the other way, one choice at a time: where time on target and Ξ peak "
-        f"over k then, and how high time on target gets, with 95 % intervals, for a target of "
+        f"over k then, and how high time on target gets, with 95 % intervals over {seeds} seeds, for a target of "
         f"{' and '.join(f'{speed:g}' for speed in levels(rows, 'target_speed'))} m/s. Dashed lines: {names[0]}, the "
-        "paper as printed. A conclusion depends on a choice where its dots leave the dashed lines."
+        "paper as printed. Hollow: a peak at the edge of the k that were run. A "
+        "conclusion depends on a choice where its dots leave the dashed lines."
     )
     return Figure("sensitivity", "What the paper does not say", caption, figure, data)
-
-
-def _shown(peak: Peak, what: str) -> tuple[float, float, float]:
-    if what == "height":
-        return peak.height, peak.height_low, peak.height_high
-    return peak.x, peak.low, peak.high
 
 
 def _signs() -> list[Any]:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from shoal.paper.curves import FEW, intervals
+from shoal.paper.plan import AGENTS
 from shoal.paper.results import Row
-from shoal.record.statistics import estimate
 from shoal.scenario.edit import SHORTHANDS
 from shoal.viz.curves import draw_band
 
@@ -16,8 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 SINGLE, DOUBLE = 3.5, 7.16  # [inch] column widths of the paper
-AGENTS = 50
-MIXED, ALL_SLOW = 15, 0  # fast buoys in the two swarms that the paper compares
+ALL_SLOW = 0  # fast buoys, as MIXED
 CURVE_FIELDS = ("fast", "neighbors", "target_speed")
 
 
@@ -57,7 +57,7 @@ class Series:
         """One row per point, for the table behind a figure."""
         points = zip(self.x, self.mean, self.low, self.high, self.runs, strict=True)
         return [
-            {**labels, x: at, "quantity": quantity.name, "unit": quantity.unit or "1",
+            {**labels, x: int(at) if at.is_integer() else at, "quantity": quantity.name, "unit": quantity.unit or "1",
              "mean": mean, "low": low, "high": high, "runs": runs}
             for at, mean, low, high, runs in points
         ]  # fmt: skip
@@ -90,14 +90,14 @@ def series(rows: Iterable[Row], x: str, quantity: Quantity) -> Series:
         value = row.get(quantity.column)
         if row.get(x) is not None and value is not None and math.isfinite(value):
             cells.setdefault(float(row[x]), []).append(quantity.factor * value)
-    known = {at: estimate(cells[at]) for at in sorted(cells)}
-    intervals = [each.ci95 or (math.nan, math.nan) for each in known.values()]
+    places = sorted(cells)
+    known = intervals([np.array(cells[at]) for at in places])
     return Series(
-        tuple(known),
-        tuple(each.mean for each in known.values()),
-        tuple(float(np.clip(low, 0.0, quantity.most)) for low, _ in intervals),
-        tuple(float(np.clip(high, 0.0, quantity.most)) for _, high in intervals),
-        tuple(len(each.runs) for each in known.values()),
+        tuple(places),
+        tuple(each.value for each in known),
+        tuple(float(np.clip(each.low, 0.0, quantity.most)) for each in known),
+        tuple(float(np.clip(each.high, 0.0, quantity.most)) for each in known),
+        tuple(len(cells[at]) for at in places),
     )
 
 
@@ -124,7 +124,7 @@ def curve(
 
 
 def show_means(axes: "Axes", rows: Iterable[Row]) -> None:
-    """Fit the y axis to the means of the rows; bands, very wide with two seeds, may reach out of the panel."""
+    """Fit the y axis to the means of the rows; wide bands may reach out of the panel."""
     axes.set_ylim(*limits(rows, "mean"))
 
 
@@ -168,8 +168,8 @@ def seeds_text(rows: Iterable[Row]) -> str:
     seeds = len({row.get("run") for row in rows})
     if seeds < 2:
         return "One seed: no intervals."
-    wide = " With so few seeds they are wide, and may reach out of the panel." if seeds < 4 else ""
-    return f"Bands: 95 % interval over {seeds} seeds.{wide}"
+    pooled = ", their spread pooled over the points of a curve" if seeds < FEW else ""
+    return f"Bands: 95 % interval over {seeds} seeds{pooled}."
 
 
 def _varies_more(name: str) -> bool:

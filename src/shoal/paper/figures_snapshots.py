@@ -131,10 +131,12 @@ def _locked_caption(record: Record, found: Locked) -> str:
     edge = area["width"] / 2 - area["agent_margin"] - _EDGE
     at_edge = np.maximum(np.abs(frames.x[found.frame]), np.abs(frames.y[found.frame])) >= edge
     locked, on_target = int(found.locked.sum()), int(frames.on_target[found.frame].sum())
+    there = int((found.locked & at_edge).sum())
+    edge_text = f"{'all' if there == locked else there} of them at the dashed line that no buoy crosses"
     return (
         f"{_swarm(record)}. Squares: buoys that have heard of no target for so long that their repulsion a_R is at its "
         f"maximum; {locked} of these {int(found.pushing.sum())} are locked (dark squares: slower than a tenth of their "
-        f"top speed), {int((found.locked & at_edge).sum())} of them at the dashed line that no buoy crosses, while "
+        f"top speed), {edge_text}, while "
         f"{on_target} {'is' if on_target == 1 else 'are'} on target. Of {count(frames.step.size)} steps this is the "
         "first with the most locked buoys while others are on target. "
         f"Lines: the last {_TRAIL} steps of the target, {_TRAIL // 3} of the buoys."

@@ -9,7 +9,7 @@ from shoal.experiments.design import Design, Point, grid
 PAPERS = ("oceans2020", "aamas2020")
 FULL_STEPS, QUICK_STEPS = 100_000, 20_000
 SPEEDS = (3.0, 5.0)  # of the target [m/s]
-MIXED = 15  # fast buoys of the paper's mixed swarm, of 50
+AGENTS, MIXED = 50, 15  # buoys, and fast ones among them in the paper's mixed swarm
 SHARE_NEIGHBORS = (10, 20, 30, 40)
 START_PLACES = ("corner", "center")
 
@@ -70,7 +70,7 @@ def make_plan(paper: str, *, quick: bool = False) -> Plan:
 
 def _oceans2020(quick: bool, steps: int, seeds: int) -> list[Group]:
     """The curves over k and over the share of fast buoys; other starts of the fast fleet; and every variant."""
-    fast = range(0, 51, 10) if quick else range(0, 51, 5)
+    fast = range(0, AGENTS + 1, 10) if quick else range(0, AGENTS + 1, 5)
     main = [
         *_curves(_NEIGHBORS_QUICK if quick else _NEIGHBORS, SPEEDS),
         *grid({"target_speed": SPEEDS, "fast": [*fast, MIXED], "neighbors": SHARE_NEIGHBORS}),

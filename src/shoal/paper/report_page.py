@@ -11,7 +11,7 @@ from shoal.paper.report_words import METHOD, QUICK, TABLES, TITLES
 from shoal.paper.results import Figure, Reproduction
 
 _PIXELS = 96.0  # to the inch, on a screen
-_NARROW = 360.0  # [px] wider pictures are moved sideways on a phone, rather than shrunk until nobody can read them
+_NARROW = 480.0  # [px] wider pictures are moved sideways on a phone, rather than shrunk until nobody can read them
 
 
 class Picture(NamedTuple):
@@ -30,7 +30,7 @@ def page(reproduction: Reproduction, pictures: Sequence[Picture], stores: Sequen
         ("claims", "Claims and verdicts", _claims(reproduction, pictures)),
         ("figures", "Figures", "".join(_picture(reproduction, picture) for picture in pictures)),
         ("tables", "Tables", _tables(reproduction)),
-        ("method", "How verdicts were reached", _method()),
+        ("method", "How verdicts were reached", _method(reproduction.paper)),
         ("data", "Run it again, read the data", _data(reproduction, pictures, stores)),
     ]
     sections = [section for section in sections if section[2]]
@@ -74,8 +74,8 @@ def _facts(reproduction: Reproduction) -> str:
     versions = ", ".join(f"{name} {version}" for name, version in reproduction.versions.items())
     facts = {
         "Command": f"<code>{escape(reproduction.command)}</code>" if reproduction.command else "",
-        "Runs": f"{_count(runs)} of {_count(reproduction.steps)} steps each, "
-        f"{reproduction.seeds} seed{'s' if reproduction.seeds != 1 else ''} per point of the main curves"
+        "Runs": f"{_count(runs)} of {_count(reproduction.steps)} steps in the curves, "
+        f"{reproduction.seeds} seed{'s' if reproduction.seeds != 1 else ''} per point"
         + (f"; {_count(failed)} failed and are left out" if failed else ""),
         "Time": _time(reproduction.seconds) if reproduction.seconds > 0 else "",
         "Versions": escape(versions),
@@ -93,14 +93,15 @@ def _picture(reproduction: Reproduction, picture: Picture) -> str:
     figure, pixels = picture.figure, picture.width * _PIXELS
     name = escape(figure.name)
     claims = [claim.id for claim in reproduction.claims if claim.figure == figure.name]
-    read = ", ".join(f'<a href="#claim-{escape(claim)}">{escape(claim)}</a>' for claim in claims)
-    swipe = ' class="note swipe"' if pixels > _NARROW else ' class="note"'
+    links = ", ".join(f'<a href="#claim-{escape(claim)}">{escape(claim)}</a>' for claim in claims)
+    read = f"Read for {links}. " if claims else ""
+    wide = " wide" if pixels > _NARROW else ""
     return (
-        f'<figure id="figure-{name}">\n<h3>{escape(figure.title)}</h3>\n'
+        f'<figure id="figure-{name}" class="plot{wide}">\n<h3>{escape(figure.title)}</h3>\n'
         f'<div class="scroll"><img src="{picture.source}" width="{pixels:.0f}" '
         f'height="{picture.height * _PIXELS:.0f}" alt="{escape(figure.title)}"></div>\n'
         f"<figcaption>{escape(figure.caption)} "
-        f"<span{swipe}>{f'Read for {read}. ' if read else ''}Every plotted number: "
+        f'<span class="note">{read}Every plotted number: '
         f'<a href="data/{name}.csv">data/{name}.csv</a>.</span></figcaption>\n</figure>\n'
     )
 
@@ -114,8 +115,8 @@ def _tables(reproduction: Reproduction) -> str:
     )
 
 
-def _method() -> str:
-    return "".join(f"<p>{escape(paragraph)}</p>\n" for paragraph in METHOD)
+def _method(paper: str) -> str:
+    return "".join(f"<p>{escape(paragraph)}</p>\n" for paragraph in METHOD.get(paper, ()))
 
 
 def _data(reproduction: Reproduction, pictures: Sequence[Picture], stores: Sequence[str]) -> str:

@@ -55,6 +55,10 @@ th { font-weight: 600; border-bottom-width: 2px; vertical-align: bottom; }
 th.number, td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 th .unit { display: block; font-weight: 400; color: var(--soft); }
 td .key { display: block; color: var(--soft); margin-top: .15rem; font-variant-numeric: tabular-nums; }
+table.claims th:nth-child(1) { width: 3.5em; }
+table.claims th:nth-child(2) { width: 27%; }
+table.claims th:nth-child(4) { width: 9.5em; }
+table.claims th:nth-child(5) { width: 17%; }
 .scroll { overflow-x: auto; }
 figure { margin: 1rem 0 2.5rem; }
 figure .scroll { background: #fff; border: 1px solid var(--line); border-radius: 8px; padding: .9rem; }
@@ -69,13 +73,14 @@ footer { margin-top: 3rem; border-top: 1px solid var(--line); }
   dl.facts dd { margin-bottom: .5rem; }
   ul.counts li { flex-basis: 40%; }
   figure .scroll { padding: .5rem; margin: 0 -.5rem; }
-  figure img { max-width: none; }
-  .swipe::after { content: " Swipe the figure sideways to see all of it."; }
+  figure.wide img { max-width: none; }
+  figure.wide .note::after { content: " Swipe the figure sideways to see all of it."; }
   table.claims, table.claims tbody, table.claims tr, table.claims td { display: block; }
   table.claims thead { display: none; }
   table.claims tr { border: 1px solid var(--line); border-radius: 8px; padding: .6rem .8rem; margin: .8rem 0; }
   table.claims td { border: 0; padding: .15rem 0; }
   table.claims td:first-child { font-weight: 700; }
+  table.claims td[data-label]::before { content: attr(data-label); color: var(--soft); }
 }
 @media print {
   @page { size: A4; margin: 15mm 14mm; }
@@ -90,6 +95,8 @@ footer { margin-top: 3rem; border-top: 1px solid var(--line); }
   figure .scroll { border: 0; padding: 0; overflow: visible; }
   figure img { max-width: 100%; max-height: 215mm; width: auto; }
   table { font-size: 8.5pt; }
+  .badge { font-size: 7.5pt; padding: 0 .5em; }
+  table.claims th:nth-child(4) { width: 8.5em; }
   th, td { padding: .25rem .4rem; }
   .scroll { overflow: visible; }
   a { color: inherit; text-decoration: none; }

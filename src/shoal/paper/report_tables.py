@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
+from shoal.paper.report_words import COLUMNS, METRICS
 from shoal.paper.results import Claim, Row
 
 BADGES = {  # a sign and a class for each verdict: color is never the only one
@@ -15,17 +16,6 @@ BADGES = {  # a sign and a class for each verdict: color is never the only one
 }
 _DASH = "\u2013"
 
-# Words and units of columns; others are shown as they are called.
-COLUMNS: dict[str, tuple[str, str]] = {
-    "neighbors": ("k", ""),
-    "fast": ("fast buoys", "of 50"),
-    "target_speed": ("target", "m/s"),
-    "time_on_target": ("time on target", ""),
-    "xi": ("Ξ", ""),
-    "response": ("response", "unit/step"),
-}
-_METRIC_WORDS = {"time_on_target": "time on target", "xi": "Ξ", "response": "response [unit/step]"}
-
 
 def badge(verdict: str) -> str:
     """A verdict as a colored label."""
@@ -35,17 +25,23 @@ def badge(verdict: str) -> str:
 
 def claims_table(claims: Sequence[Claim], titles: Mapping[str, str]) -> str:
     """The claims with what was measured and the verdict; `titles` are those of the figures in the report, by name."""
-    rows = "".join(
-        f'<tr id="claim-{escape(claim.id)}"><td>{escape(claim.id)}</td><td>{escape(claim.statement)}</td>'
-        f'<td>{escape(claim.measured)}<span class="key">{key_number(claim)}</span></td>'
-        f"<td>{badge(claim.verdict)}</td><td>{_figure_link(claim.figure, titles)}</td></tr>\n"
-        for claim in claims
-    )
+    rows = "".join(_claim_row(claim, titles) for claim in claims)
     return (
         '<table class="claims"><thead><tr><th>Claim</th><th>What the paper says</th>'
         "<th>What the runs say</th><th>Verdict</th><th>Read from</th></tr></thead>\n"
         f"<tbody>\n{rows}</tbody></table>"
     )
+
+
+def _claim_row(claim: Claim, titles: Mapping[str, str]) -> str:
+    cells = (
+        f"<td>{escape(claim.id)}</td>",
+        f'<td data-label="Paper: ">{escape(claim.statement)}</td>',
+        f'<td data-label="Runs: ">{escape(claim.measured)}<span class="key">{key_number(claim)}</span></td>',
+        f"<td>{badge(claim.verdict)}</td>",
+        f'<td data-label="Figure: ">{_figure_link(claim.figure, titles)}</td>',
+    )
+    return f'<tr id="claim-{escape(claim.id)}">{"".join(cells)}</tr>\n'
 
 
 def key_number(claim: Claim) -> str:
@@ -114,7 +110,7 @@ def _cell(row: Row, name: str, numeric: bool, interval: tuple[str, str] | None) 
     value = row.get(name)
     if value is None or value == "":
         text = _DASH
-    elif name == "verdict":
+    elif value in BADGES:
         text = badge(str(value))
     elif isinstance(value, bool):
         text = "yes" if value else "no"
@@ -123,7 +119,7 @@ def _cell(row: Row, name: str, numeric: bool, interval: tuple[str, str] | None) 
     elif isinstance(value, (int, float)):
         text = number_text(value)
     else:
-        text = escape(_METRIC_WORDS.get(str(value), str(value)))
+        text = escape(METRICS.get(str(value), str(value)))
     return f"<td{_numeric(numeric)}>{text}</td>"
 
 

@@ -9,6 +9,7 @@ import shutil
 from pathlib import Path
 from types import TracebackType
 from typing import Self
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -119,7 +120,7 @@ def open_record(folder: str | Path) -> Record:
             )
         trajectories = {int(each.name[4:]): Trajectory.open(each) for each in sorted(folder.glob("run-*"))}
         return Record(content["scenario"], facts, tallies, content["provenance"], trajectories)
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, EOFError, BadZipFile) as error:
         raise RecordError(str(folder), f"is damaged: {error}", "run the scenario again into a new folder") from error
 
 

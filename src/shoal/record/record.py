@@ -69,12 +69,12 @@ class Record:
         histogram = self.phi_histogram()
         return {
             **{name: _plain(self.estimate(name)) for name in METRICS},
-            "phi_histogram": histogram.sum(axis=0).tolist(),
+            "phi_histogram": _numbers(histogram.sum(axis=0)),
             "fleets": {
                 name: {
                     "count": self.facts.counts[f],
                     "max_speed": self.facts.max_speeds[f],
-                    "phi_histogram": histogram[f].tolist(),
+                    "phi_histogram": _numbers(histogram[f]),
                     **{metric: _plain(self.fleet_estimate(metric)[name]) for metric in ("xi", "xi_raw", "stationary")},
                 }
                 for f, name in enumerate(self.facts.fleets)
@@ -92,10 +92,11 @@ class Record:
 
 
 def _plain(value: Estimate) -> dict[str, Any]:
-    """An estimate as JSON; a number that does not exist is null."""
+    """An estimate as JSON."""
+    interval = _numbers(value.ci95) if value.ci95 else None
+    return {"mean": _numbers([value.mean])[0], "ci95": interval, "runs": _numbers(value.runs)}
 
-    def number(x: float) -> float | None:
-        return x if np.isfinite(x) else None
 
-    interval = [number(bound) for bound in value.ci95] if value.ci95 else None
-    return {"mean": number(value.mean), "ci95": interval, "runs": [number(run) for run in value.runs]}
+def _numbers(values: npt.ArrayLike) -> list[float | None]:
+    """Numbers as JSON has them: one that does not exist is null."""
+    return [float(value) if np.isfinite(value) else None for value in np.asarray(values, float)]

@@ -12,7 +12,7 @@ import tomli_w
 from pydantic import ValidationError
 
 from shoal.core.errors import ScenarioError
-from shoal.scenario.plugins import load_strategies
+from shoal.scenario.plugins import find_strategy, load_strategies
 from shoal.scenario.schema import Area, Fleet, Motion, Network, Scenario, StillTarget, TrackTarget, WaypointTarget
 from shoal.scenario.strategy_choice import StrategyParamsError, params_model
 
@@ -107,10 +107,10 @@ def _as_scenario_error(
     real = [(loc, each) for loc, each in problems if each["type"] != "too_short"]  # follows from others in a tuple
     real.sort(key=lambda problem: problem[1]["type"] != "extra_forbidden")  # a misspelt field explains a missing one
     (loc, first), *others = real or problems
-    path = _path(loc)
+    problem, fix = _explain(_path(loc), first, table)
+    path = _path(loc) + _field_named_by(problem, _path(loc))
     line = _line_of(path, text)
     place = ":".join(str(part) for part in (where, line) if part)
-    problem, fix = _explain(path, first, table)
     also = "".join(f"\n  also: {_dotted(_path(loc))}: {_explain(_path(loc), each, table)[0]}" for loc, each in others)
     return ScenarioError(f"{place} {_dotted(path)}".rstrip(), problem + also, fix)
 
@@ -134,6 +134,12 @@ def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tup
         near = difflib.get_close_matches(str(wrong), names, n=1)
         hint = f"did you mean {near[0]!r}? " if near else ""
         return f"no strategy is called {wrong!r}", f'{hint}strategies: {", ".join(names)}; or file = "my_strategy.py"'
+    if error["type"] == "union_tag_invalid":
+        near = difflib.get_close_matches(error["ctx"]["tag"], _TARGETS, n=1)
+        hint = f"did you mean {near[0]!r}? " if near else ""
+        return f"no target is of kind {error['ctx']['tag']!r}", f"{hint}kinds: {', '.join(_TARGETS)}"
+    if error["type"] == "union_tag_not_found":
+        return "a target needs a kind", f"add kind = one of: {', '.join(_TARGETS)}"
     if isinstance(value, (dict, list, tuple)):
         return f"{error['msg'].lower()}", "see `shoal scenario oceans2020` for a complete example"
     return f"{value!r}: {error['msg'].lower()}", "change the value"
@@ -154,26 +160,38 @@ def _known_fields(path: tuple[Any, ...], table: Mapping[str, Any]) -> list[str]:
     if len(path) < 2:
         return list(Scenario.model_fields)
     if path[0] == "strategy":
-        return ["file", *params_model(table["strategy"]["name"]).model_fields]
+        chosen = table["strategy"]
+        owner = find_strategy(chosen["name"], chosen.get("source"))
+        return ["file", *params_model(owner).model_fields] if owner else ["file", "name"]
     if path[0] == "targets":
-        chosen: Any = _TARGETS[table["targets"][path[1]]["kind"]]
-        return list(chosen.model_fields)
+        kind: Any = _TARGETS.get(str(table["targets"][path[1]].get("kind")))
+        return list(kind.model_fields) if kind else ["kind"]
     return list(models[path[0]].model_fields) if path[0] in models else []
 
 
+def _field_named_by(problem: str, path: tuple[Any, ...]) -> tuple[Any, ...]:
+    """The field that a check of a whole table is about: it begins with its name, "network.neighbors is 60"."""
+    match = re.match(r"([a-z_]+(?:\.[a-z_0-9]+)*) is ", problem)
+    named = tuple(int(part) if part.isdigit() else part for part in match.group(1).split(".")) if match else ()
+    return () if path and path[-1] in named else named
+
+
 def _line_of(path: Sequence[Any], text: str) -> int | None:
-    """Line of the TOML text where a path is set, if it is written plainly."""
-    header, wanted, count = "", [part for part in path if isinstance(part, str)], {}  # type: ignore[var-annotated]
+    """Line of the TOML text where a path is set, or else the header of its table, if they are written plainly."""
+    wanted = [part for part in path if isinstance(part, str)]
     index = next((part for part in path if isinstance(part, int)), None)
+    header, count, near = "", {}, None  # type: ignore[var-annotated]
     for number, line in enumerate(text.splitlines(), 1):
         if match := re.match(r"\s*\[+\s*([\w.\-]+)\s*\]+", line):
             header = match.group(1)
             count[header] = count.get(header, -1) + 1
+            if wanted and header.split(".") == wanted[: len(header.split("."))] and index in (None, count[header]):
+                near = number
         elif match := re.match(r"\s*([\w.\-]+)\s*=", line):
             names = [*header.split("."), match.group(1)] if header else [match.group(1)]
             if names == wanted and (index is None or count.get(header) == index):
                 return number
-    return None
+    return near
 
 
 def _without_none(value: Any) -> Any:

@@ -8,7 +8,6 @@ from shoal.core.units import Unit
 from shoal.scenario.load import scenario_from
 from shoal.scenario.schema import Scenario
 from shoal.scenario.tracks import read_track
-from shoal.strategies import CATALOGUE
 
 ROOM = 1.25  # side of the arena over the track's longer extent: as waypoints in [-8, 8] of [-10, 10]
 MOST_STEPS = 100_000  # of a run along the whole track; the time-step is the shortest that keeps to it
@@ -62,7 +61,7 @@ def scale_lengths(scenario: Scenario, factor: float) -> dict[str, Any]:
         for name, field in type(model).model_fields.items():
             if Unit("m") in field.metadata:
                 part[name] *= factor
-    hints = get_type_hints(CATALOGUE[scenario.strategy.name].params, include_extras=True)
+    hints = get_type_hints(scenario.strategy.owner.params, include_extras=True)
     for name in scenario.strategy.params:
         if Unit("m") in getattr(hints[name], "__metadata__", ()):
             table["strategy"][name] *= factor

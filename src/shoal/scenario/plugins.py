@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from shoal.core.errors import StrategyError
-from shoal.strategies import CATALOGUE
+from shoal.strategies import CATALOGUE, Strategy
 
 
 def load_strategies(choice: dict[str, Any]) -> dict[str, Any]:
@@ -19,6 +19,8 @@ def load_strategies(choice: dict[str, Any]) -> dict[str, Any]:
         or its source is not the one that the table insists on
     """
     path = Path(choice["file"])
+    if path.suffix != ".py" and path.is_file():
+        raise StrategyError(str(path), "is no Python file", "name a file that ends in .py")
     try:
         text = path.read_bytes()
     except OSError as error:
@@ -30,30 +32,41 @@ def load_strategies(choice: dict[str, Any]) -> dict[str, Any]:
             "is not the file that this scenario was made with",
             "restore it, or drop `source` to use it anyway",
         )
-    names = _names_defined_by(path, source)
+    names = list(_defined_by(path, source))
     name = choice.get("name") or (names[0] if len(names) == 1 else None)
-    if name is None or (name not in names and name not in CATALOGUE):
+    if name not in names:
         raise StrategyError(str(path), f"defines {', '.join(names)}", 'choose one: name = "..."')
     return {**choice, "name": name, "source": source}
 
 
-_LOADED: dict[tuple[str, str], list[str]] = {}  # (path, source) -> names: a file is executed once per version
+def find_strategy(name: str, source: str | None = None) -> Strategy | None:
+    """The strategy of a name: the one that a file of this source defines, or else the catalogue's."""
+    return _LOADED.get(source or "", {}).get(name) or CATALOGUE.get(name)
 
 
-def _names_defined_by(path: Path, source: str) -> list[str]:
-    key = (str(path.resolve()), source)
-    if key not in _LOADED:
+_LOADED: dict[str, dict[str, Strategy]] = {}  # by source: a file is executed once per version
+
+
+def _defined_by(path: Path, source: str) -> dict[str, Strategy]:
+    if source not in _LOADED:
         before = dict(CATALOGUE)
-        _execute(path, f"shoal_plugin_{path.stem.replace('-', '_')}_{source}")
-        names = [name for name, known in CATALOGUE.items() if before.get(name) is not known]
-        taken = [name for name in names if name in before and before[name].builtin]
-        if taken:
+        try:
+            _execute(path, f"shoal_plugin_{path.stem.replace('-', '_')}_{source}")
+            _LOADED[source] = _new_strategies(path, before)
+        finally:  # the catalogue is ours; a file's strategies are found by its source
+            CATALOGUE.clear()
             CATALOGUE.update(before)
-            raise StrategyError(str(path), f"redefines the built-in strategy {taken[0]!r}", "give it a name of its own")
-        if not names:
-            raise StrategyError(str(path), "defines no strategy", "decorate a function with @shoal.strategy(...)")
-        _LOADED[key] = names
-    return _LOADED[key]
+    return _LOADED[source]
+
+
+def _new_strategies(path: Path, before: dict[str, Strategy]) -> dict[str, Strategy]:
+    new = {name: known for name, known in CATALOGUE.items() if before.get(name) is not known}
+    taken = [name for name in new if name in before and before[name].builtin]
+    if taken:
+        raise StrategyError(str(path), f"redefines the built-in strategy {taken[0]!r}", "give it a name of its own")
+    if not new:
+        raise StrategyError(str(path), "defines no strategy", "decorate a function with @shoal.strategy(...)")
+    return new
 
 
 def _execute(path: Path, module_name: str) -> None:
@@ -64,8 +77,9 @@ def _execute(path: Path, module_name: str) -> None:
     sys.modules[module_name] = module
     try:
         spec.loader.exec_module(module)
-    except StrategyError:
-        raise
+    except StrategyError as error:
+        where, problem, fix = error.args
+        raise StrategyError(f"{path} {where}", problem, fix) from error
     except Exception as error:
         line = _line_in(error, path)
         raise StrategyError(

@@ -4,7 +4,7 @@ import hashlib
 import json
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt, PositiveInt, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from shoal.core.units import Degrees, Kilograms, Meters, MetersPerSecond, Seconds
 from shoal.scenario.strategy_choice import StrategyChoice
@@ -20,6 +20,7 @@ class Frozen(BaseModel):
 
 Positive = Field(gt=0)
 NotNegative = Field(ge=0)
+Count = Annotated[int, Field(strict=True, gt=0)]  # strict: neither true nor "15" is a number
 
 
 class Area(Frozen):
@@ -48,7 +49,7 @@ class Fleet(Frozen):
     """Agents of one make."""
 
     name: str = Field(min_length=1, description="what reports call it")
-    count: PositiveInt = Field(description="number of agents")
+    count: Count = Field(description="number of agents")
     max_speed: Annotated[MetersPerSecond, Positive] = Field(description="top speed [m/s]")
     mass: Annotated[Kilograms, Positive] | None = Field(default=None, description="mass of one agent [kg]; for reports")
     sensor_radius: Annotated[Meters, NotNegative] = Field(
@@ -62,7 +63,7 @@ class Fleet(Frozen):
 class Network(Frozen):
     """Who hears whom."""
 
-    neighbors: PositiveInt = Field(description="k: every agent hears its k nearest others")
+    neighbors: Count = Field(description="k: every agent hears its k nearest others")
 
 
 class Motion(Frozen):
@@ -96,7 +97,7 @@ class WaypointTarget(Frozen):
     )
     max_turn: Annotated[Degrees, Field(gt=0, le=180)] = Field(default=20.0, description="largest turn in a step [deg]")
     waypoint_reach: Annotated[Meters, Positive] = Field(description="a new waypoint is taken when closer than this [m]")
-    waypoint_patience: PositiveInt = Field(default=200, description="or after so many steps on the same one")
+    waypoint_patience: Count = Field(default=200, description="or after so many steps on the same one")
 
 
 class TrackTarget(Frozen):
@@ -126,9 +127,9 @@ class Scenario(Frozen):
     name: str = Field(default="scenario", description="what reports call it")
     description: str = Field(default="", description="one sentence")
     time_step: Annotated[Seconds, Positive] = Field(description="dt [s]")
-    steps: PositiveInt = Field(description="time-steps of a run")
-    seed: NonNegativeInt = Field(
-        default=1, lt=2**64, description="run r of two scenarios with one seed share their chance"
+    steps: Count = Field(description="time-steps of a run")
+    seed: Annotated[int, Field(strict=True, ge=0, lt=2**64)] = Field(
+        default=1, description="run r of two scenarios with one seed share their chance"
     )
     area: Area
     fleets: tuple[Fleet, ...] = Field(min_length=1, description="one or more makes of agents")
@@ -189,4 +190,21 @@ class Scenario(Frozen):
 
 def json_schema() -> dict[str, Any]:
     """JSON Schema of a scenario file."""
-    return Scenario.model_json_schema(mode="validation")
+    schema: dict[str, Any] = _with_limits(Scenario.model_json_schema(mode="validation"))
+    return schema
+
+
+_LIMITS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
+
+
+def _with_limits(schema: Any) -> Any:
+    """Move pydantic's limits of a quantity, which is a number or a text with a unit, to its number."""
+    if isinstance(schema, list):
+        return [_with_limits(each) for each in schema]
+    if not isinstance(schema, dict):
+        return schema
+    result = {key: _with_limits(value) for key, value in schema.items() if "unit" not in schema or key not in _LIMITS}
+    if "unit" in schema:
+        limits = {_LIMITS[key]: value for key, value in schema.items() if key in _LIMITS}
+        result["anyOf"] = [{**result["anyOf"][0], **limits}, *result["anyOf"][1:]]
+    return result

@@ -9,6 +9,7 @@ from pydantic import ValidationError as PydanticError
 from pydantic_core import PydanticCustomError, core_schema
 
 from shoal.core.units import Choice, Says, Unit
+from shoal.scenario.plugins import find_strategy
 from shoal.strategies import CATALOGUE, Strategy
 
 
@@ -17,13 +18,14 @@ class StrategyChoice:
 
     Attributes
     ----------
-    name : as in shoal.strategies()
+    owner : the strategy itself; name : what it is called
     file : the user's Python file that defines it, or None; source : hash of that file's text
     params : {parameter: value}, words for choices
     """
 
-    def __init__(self, name: str, file: str | None, source: str | None, params: dict[str, Any]) -> None:
-        self.name = name
+    def __init__(self, owner: Strategy, file: str | None, source: str | None, params: dict[str, Any]) -> None:
+        self.owner = owner
+        self.name = owner.name
         self.file = file
         self.source = source
         self.params = params
@@ -35,13 +37,13 @@ class StrategyChoice:
 
     def kernel_params(self) -> Any:
         """The strategy's NamedTuple of parameters: words become their index, numbers the type of the default."""
-        owner = CATALOGUE[self.name]
-        hints = get_type_hints(owner.params, include_extras=True)
+        params: Any = self.owner.params
+        hints = get_type_hints(params, include_extras=True)
         values = {}
         for field, value in self.params.items():
             words = _mark(hints[field], Choice)
-            values[field] = words.words.index(value) if words else type(owner.params._field_defaults[field])(value)
-        return owner.params(**values)
+            values[field] = words.words.index(value) if words else type(params._field_defaults[field])(value)
+        return params(**values)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, StrategyChoice) and self.flat() == other.flat()
@@ -61,15 +63,15 @@ class StrategyChoice:
             value = {"name": value}
         if not isinstance(value, dict) or "name" not in value:
             raise PydanticCustomError("strategy", "a strategy is a table with a name, or just the name")
-        if value["name"] not in CATALOGUE:
+        table = dict(value)
+        file, source = table.pop("file", None), table.pop("source", None)
+        owner = find_strategy(str(table["name"]), source)
+        if owner is None:
             raise PydanticCustomError(
                 "strategy_name", "unknown strategy; there are: {known}", {"known": ", ".join(sorted(CATALOGUE))}
             )
-        owner = CATALOGUE[value["name"]]
-        table = dict(value)
-        file, source = table.pop("file", None), table.pop("source", None)
-        filled = params_model(owner.name)(**table).model_dump(exclude={"name"})
-        return cls(owner.name, file, source, filled)
+        filled = params_model(owner)(**table).model_dump(exclude={"name"})
+        return cls(owner, file, source, filled)
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> core_schema.CoreSchema:
@@ -87,7 +89,10 @@ class StrategyChoice:
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> dict[str, Any]:
-        return {"anyOf": [params_model(name).model_json_schema() for name in sorted(CATALOGUE)]}
+        known = [CATALOGUE[name] for name in sorted(CATALOGUE)]
+        names = {"type": "string", "enum": [each.name for each in known]}
+        from_file = {"type": "object", "properties": {"file": {"type": "string"}}, "required": ["file"]}
+        return {"anyOf": [*(params_model(each).model_json_schema() for each in known), names, from_file]}
 
 
 class StrategyParamsError(Exception):
@@ -98,9 +103,9 @@ class StrategyParamsError(Exception):
         self.error = error
 
 
-def params_model(name: str) -> type[BaseModel]:
+def params_model(owner: Strategy) -> type[BaseModel]:
     """Pydantic model of a strategy's parameters, made from its NamedTuple."""
-    return _params_model(CATALOGUE[name])
+    return _model_of(owner.name, cast(Hashable, owner.params))
 
 
 @cache
@@ -115,14 +120,14 @@ def _model_of(name: str, key: Hashable) -> type[BaseModel]:
             fields[field] = (Literal[choice.words], Field(default=choice.words[default], description=description))
         else:
             unit = _mark(hints[field], Unit)
-            kind = Annotated[type(default), unit] if unit else type(default)
+            kind = (
+                Annotated[type(default), Field(strict=True), unit]
+                if unit
+                else Annotated[type(default), Field(strict=True)]
+            )
             fields[field] = (kind, Field(default=default, description=description))
     config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
     return create_model(f"{params.__name__}Table", __config__=config, __doc__=params.__doc__, **fields)
-
-
-def _params_model(owner: Strategy) -> type[BaseModel]:
-    return _model_of(owner.name, cast(Hashable, owner.params))
 
 
 def _mark(hint: Any, kind: type[Any]) -> Any:

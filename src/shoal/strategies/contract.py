@@ -46,7 +46,8 @@ class Strategy:
     decide: Callable[..., Any]
 
 
-CATALOGUE: dict[str, Strategy] = {}
+CATALOGUE: dict[str, Strategy] = {}  # by name; the last one registered under a name
+_OWNERS: dict[type[Any], Strategy] = {}  # by class of parameters; all that were ever registered
 
 
 def strategy(
@@ -72,7 +73,7 @@ def strategy(
 
     Raises
     ------
-    StrategyError : params are no NamedTuple, or a parameter has no default
+    StrategyError : params are no NamedTuple, belong to another strategy, or one has no default
     """
 
     def register(decide: Callable[..., Any]) -> Callable[..., Any]:
@@ -85,19 +86,27 @@ def strategy(
         bare = [field for field in fields if field not in params._field_defaults]
         if bare:
             raise StrategyError(where, f"parameter {bare[0]!r} has no default", f"write {bare[0]}: float = ...")
+        if params in _OWNERS:
+            problem = f"params={params.__name__} belong to strategy {_OWNERS[params].name!r}"
+            raise StrategyError(
+                where, problem, "write a NamedTuple class of its own: the class decides whose functions run"
+            )
         compiled = kernel(decide)
-        CATALOGUE[name] = Strategy(
-            name=name,
-            params=params,
-            memory=dict(memory or {}),
-            summary=(decide.__doc__ or "").strip().split("\n")[0],
-            source=decide.__code__.co_filename,
-            builtin=decide.__module__.startswith("shoal."),
-            begin=kernel(begin) if begin else _keep_zeros,
-            leads=kernel(leads) if leads else _is_on_target,
-            priority=kernel(priority) if priority else _nearest_first,
-            influence=kernel(influence) if influence else None,
-            decide=compiled,
+        plain: Any = getattr(decide, "py_func", decide)
+        _add(
+            Strategy(
+                name=name,
+                params=params,
+                memory=dict(memory or {}),
+                summary=(plain.__doc__ or "").strip().split("\n")[0],
+                source=plain.__code__.co_filename,
+                builtin=plain.__module__.startswith("shoal."),
+                begin=kernel(begin) if begin else _keep_zeros,
+                leads=kernel(leads) if leads else _is_on_target,
+                priority=kernel(priority) if priority else _nearest_first,
+                influence=kernel(influence) if influence else None,
+                decide=compiled,
+            )
         )
         return compiled
 
@@ -198,4 +207,9 @@ def _decide(me, heard, memory, params, draw):
 
 
 def _owner(params_class: type[Any]) -> Strategy:
-    return next(known for known in CATALOGUE.values() if known.params is params_class)
+    return _OWNERS[params_class]
+
+
+def _add(known: Strategy) -> None:
+    CATALOGUE[known.name] = known
+    _OWNERS[known.params] = known

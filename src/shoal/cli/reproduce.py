@@ -1,0 +1,69 @@
+"""shoal reproduce: a paper's figures and claims from our own runs."""
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+
+from shoal.cli.progress import note
+from shoal.cli.sweep_progress import sweep_progress
+
+if TYPE_CHECKING:
+    from shoal.paper.results import Reproduction
+
+
+def reproduce(
+    paper: str,
+    /,
+    *,
+    quick: Annotated[bool, Parameter(negative=())] = False,
+    out: Path | None = None,
+    jobs: int | None = None,
+) -> None:
+    """Run a paper's experiments, test its claims, and write a report; the same command again resumes.
+
+    Parameters
+    ----------
+    paper
+        oceans2020 or aamas2020.
+    quick
+        20,000 steps, 2 seeds and fewer k instead of 100,000 steps and 5 seeds: a minute instead of some ten.
+    out
+        Folder of the report and of all runs; default reproduction-PAPER, with --quick reproduction-PAPER-quick.
+    jobs
+        Threads, one run each; default one per core.
+    """
+    from shoal.core.errors import ScenarioError
+    from shoal.paper.reproduce import reproduce as run_all
+
+    if jobs is not None and jobs < 1:
+        raise ScenarioError("--jobs", f"is {jobs}", "ask for 1 or more")
+    folder = out or Path(f"reproduction-{paper}{'-quick' if quick else ''}")
+    try:
+        with sweep_progress() as report:
+            found = run_all(paper, folder, quick=quick, jobs=jobs, report=report)
+    except KeyboardInterrupt:
+        note(f"what is done is in {folder}; the same command goes on from there")
+        raise
+    failed = [row for row in (*found.main, *found.sensitivity) if row["status"] == "failed"]
+    if failed:
+        note(f"{len(failed)} runs failed, the first: {failed[0]['error']}\n  fix: mend it, then the same command again")
+    _print_claims(found)
+    sys.stdout.write(f"report: {folder / 'report.html'}\n")
+
+
+def _print_claims(found: "Reproduction") -> None:
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    console = Console(file=sys.stdout, highlight=False)
+    table = Table(box=None, padding=(0, 2, 0, 0))
+    for title in ("", "verdict", "claim, and what was measured"):
+        table.add_column(title)
+    for claim in found.claims:
+        table.add_row(claim.id, claim.verdict, Text(claim.statement).append(f"\n{claim.measured}", style="dim"))
+    console.print(table)
+    length = f"{found.seeds} seeds of {found.steps:,} steps"
+    console.print(f"{found.paper}, {length}; in brackets 95 % intervals; {found.seconds:.0f} s", style="dim")

@@ -1,0 +1,62 @@
+"""What depends on what the paper does not say: peaks and verdicts with each open choice made the other way."""
+
+from collections.abc import Sequence
+
+from shoal.paper.claims import SWARMS, c3, c4, c5, c6
+from shoal.paper.curves import Interval, curve, peak, values_of
+from shoal.paper.results import Row
+
+CONCLUSIONS = (c3, c4, c5, c6)
+
+
+def peak_table(rows: Sequence[Row]) -> list[Row]:
+    """One row per swarm, target speed and variant (if the rows have any): k*, time on target there, k and height of the
+    peak of Xi, each with its 95 % interval; `at_edge` where a peak lies at the first or last k that was run.
+    """
+    return [
+        {**({"variant": name} if name else {}), "fast": fast, "target_speed": speed, **_peaks(of_swarm)}
+        for name in _variants(rows) or [""]
+        for speed in values_of(rows, "target_speed")
+        for fast in SWARMS
+        if (of_swarm := _where(rows, name, fast, speed))
+    ]
+
+
+def conclusion_table(rows: Sequence[Row]) -> list[Row]:
+    """One row per variant: the verdicts on C3 to C6, and which of them are not those of the first variant."""
+    table: list[Row] = []
+    for name in _variants(rows):
+        mine = [row for row in rows if row["variant"] == name]
+        verdicts = {claim.id: claim.verdict for claim in (conclude(mine) for conclude in CONCLUSIONS)}
+        printed = table[0] if table else verdicts
+        changed = [id_ for id_, verdict in verdicts.items() if verdict != printed[id_]]
+        table.append({"variant": name, **verdicts, "changed": " ".join(changed)})
+    return table
+
+
+def _variants(rows: Sequence[Row]) -> list[str]:
+    """In the order of the plan."""
+    return list(dict.fromkeys(row["variant"] for row in rows if "variant" in row))
+
+
+def _where(rows: Sequence[Row], variant: str, fast: int, speed: float) -> list[Row]:
+    return [
+        row
+        for row in rows
+        if row["fast"] == fast and row["target_speed"] == speed and row.get("variant", "") == variant
+    ]
+
+
+def _peaks(rows: Sequence[Row]) -> Row:
+    best, xi = (peak(curve(rows, metric)) for metric in ("time_on_target", "xi"))
+    return {
+        **_columns("k_star", best.place),
+        **_columns("time_on_target", best.height),
+        **_columns("xi_peak_k", xi.place),
+        **_columns("xi", xi.height),
+        "at_edge": best.at_edge or xi.at_edge,
+    }
+
+
+def _columns(name: str, number: Interval) -> Row:
+    return {name: number.value, f"{name}_low": number.low, f"{name}_high": number.high}
