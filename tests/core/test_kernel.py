@@ -4,8 +4,6 @@ import os
 import subprocess
 import sys
 
-import pytest
-
 PLAIN = """
 import warnings
 warnings.simplefilter("ignore", RuntimeWarning)  # NumPy's scalars mention that a hash overflows; that is what hashes do
@@ -30,8 +28,5 @@ def printed(**environment):
 class TestPlainPython:
     """NUMBA_DISABLE_JIT=1."""
 
-    @pytest.mark.xfail(
-        strict=True, reason="src: targets are no recarray, so target.kind is no attribute in plain Python"
-    )
     def test_gives_the_same_bits(self):
         assert printed(NUMBA_DISABLE_JIT="1") == printed()

@@ -10,11 +10,6 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from shoal.core.units import Degrees, Kilograms, Meters, MetersPerSecond, Seconds, Unit
 
-BAD_NUMBER = pytest.param(
-    "1.2.3 kn",
-    marks=pytest.mark.xfail(strict=True, reason="src: Unit.parse lets Python's own message about float() through"),
-)
-
 
 def read(kind, value):
     return TypeAdapter(kind).validate_python(value)
@@ -53,7 +48,7 @@ class TestWords:
         assert read(MetersPerSecond, text) == pytest.approx(5 * 1852 / 3600)
 
     @pytest.mark.parametrize(
-        "text", ["kn", "", "5", "five kn", "5 knots", "5 m", "5 kn kn", "5 KN", "5 kn/h", BAD_NUMBER]
+        "text", ["kn", "", "5", "five kn", "5 knots", "5 m", "5 kn kn", "5 KN", "5 kn/h", "1.2.3 kn"]
     )
     def test_that_are_no_speed_are_refused_with_the_units_there_are(self, text):
         with pytest.raises(ValidationError, match="m/s, kn, kt, km/h"):

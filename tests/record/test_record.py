@@ -76,9 +76,6 @@ class TestSummary:
         assert summary["units"].keys() == METRICS.keys()
         assert [summary["fleets"][name]["count"] for name in ("BoB-1", "BoB-0")] == [15, 35]
 
-    @pytest.mark.xfail(
-        strict=True, reason="src: phi_histogram casts NaN to integers, and summary() writes it unchecked"
-    )
     def test_of_a_run_without_a_target_has_null_for_what_cannot_be_told(self):
         record = simulate(scenario("oceans2020", {"steps": 50}))
         for tally in record.tallies:

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from shoal.metrics.heading_bearing import CENTERS
 from shoal.paper.results import Row
 from shoal.record.statistics import estimate, t_quantile
 
@@ -100,6 +101,16 @@ def curve(rows: Iterable[Row], metric: Metric, along: str = "neighbors", **where
     seeds = sorted(set.intersection(*(set(cell) for cell in cells.values()))) if cells else []
     runs = np.array([[cells[at][seed] for at in x] for seed in seeds]).reshape(len(seeds), len(x))
     return Curve(np.array(x), runs)
+
+
+def heading_there(row: Row) -> float:
+    """Agents in the last two bins of phi, from 0.7 on."""
+    return float(np.sum(np.array(row["phi_histogram"])[CENTERS > 0.7]))
+
+
+def heading_nowhere(row: Row) -> float:
+    """Agents in the middle bin of phi."""
+    return float(row["phi_histogram"][len(CENTERS) // 2])
 
 
 def cells(rows: Iterable[Row], metric: str) -> list[Floats]:

@@ -63,7 +63,8 @@ def published_figure(rows: Sequence[Row], published: Sequence[Row]) -> Figure | 
     caption = (
         "The homogeneous predecessor (AAMAS 2020): time on target and response of 50 equal buoys against k. Crosses "
         "are the published values, for adaptive repulsion. Below, measured less published with the 95 % interval; the "
-        f"gray band is what is tolerated. {seeds_text(rows)}"
+        "gray band is what is tolerated; intervals may reach out of the panel. "
+        f"{seeds_text(rows)}"
     )
     return Figure("published", "The predecessor's published curves", caption, figure, data)
 

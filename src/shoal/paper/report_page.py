@@ -77,7 +77,9 @@ def _facts(reproduction: Reproduction) -> str:
         "Runs": f"{_count(runs)} of {_count(reproduction.steps)} steps in the curves, "
         f"{reproduction.seeds} seed{'s' if reproduction.seeds != 1 else ''} per point"
         + (f"; {_count(failed)} failed and are left out" if failed else ""),
-        "Time": _time(reproduction.seconds) if reproduction.seconds > 0 else "",
+        "Time": f"{_time(reproduction.seconds)}, without runs that were finished before"
+        if reproduction.seconds > 0
+        else "",
         "Versions": escape(versions),
     }
     rows = "".join(f"<dt>{name}</dt><dd>{text}</dd>" for name, text in facts.items() if text)

@@ -15,7 +15,7 @@ CSS = """
 }
 * { box-sizing: border-box; }
 body {
-  margin: 0 auto; padding: 2rem 1.25rem 4rem; max-width: 60rem; background: var(--page); color: var(--ink);
+  margin: 0 auto; padding: 2rem 1.25rem 4rem; max-width: 64rem; background: var(--page); color: var(--ink);
   font: 16px/1.55 system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif;
   -webkit-text-size-adjust: 100%;
 }
@@ -59,6 +59,11 @@ table.claims th:nth-child(1) { width: 3.5em; }
 table.claims th:nth-child(2) { width: 27%; }
 table.claims th:nth-child(4) { width: 9.5em; }
 table.claims th:nth-child(5) { width: 17%; }
+th.number { white-space: normal; }
+.scroll table { font-size: .8rem; }
+.scroll th, .scroll td { padding: .35rem .4rem; }
+.scroll td { vertical-align: middle; }
+.scroll td:first-child { white-space: nowrap; }
 .scroll { overflow-x: auto; }
 figure { margin: 1rem 0 2.5rem; }
 figure .scroll { background: #fff; border: 1px solid var(--line); border-radius: 8px; padding: .9rem; }

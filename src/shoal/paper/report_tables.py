@@ -1,6 +1,7 @@
 """Tables of the report: the claims, and whatever else was tabulated, intervals beside their values."""
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
@@ -36,8 +37,8 @@ def claims_table(claims: Sequence[Claim], titles: Mapping[str, str]) -> str:
 def _claim_row(claim: Claim, titles: Mapping[str, str]) -> str:
     cells = (
         f"<td>{escape(claim.id)}</td>",
-        f'<td data-label="Paper: ">{escape(claim.statement)}</td>',
-        f'<td data-label="Runs: ">{escape(claim.measured)}<span class="key">{key_number(claim)}</span></td>',
+        f'<td data-label="Paper: ">{tidy(claim.statement)}</td>',
+        f'<td data-label="Runs: ">{tidy(claim.measured)}<span class="key">{key_number(claim)}</span></td>',
         f"<td>{badge(claim.verdict)}</td>",
         f'<td data-label="Figure: ">{_figure_link(claim.figure, titles)}</td>',
     )
@@ -48,7 +49,7 @@ def key_number(claim: Claim) -> str:
     """The key number of a claim with its interval and unit, or nothing if there is none."""
     if not math.isfinite(claim.value):
         return ""
-    unit = "" if claim.unit in ("", "1") else f" {escape(claim.unit)}"
+    unit = "" if claim.unit in ("", "1") else "\u00a0" + escape(claim.unit).replace(" ", "\u00a0")
     return f"Key number: {interval_text(claim.value, claim.low, claim.high)}{unit}"
 
 
@@ -59,32 +60,43 @@ def data_table(rows: Sequence[Row], title: str) -> str:
     bounds = {bound for pair in intervals.values() for bound in pair}
     shown = [name for name in names if name not in bounds]
     numeric = {name: any(_is_number(row.get(name)) for row in rows) for name in shown}
-    head = "".join(_heading(name, numeric[name], name in intervals) for name in shown)
+    head = "".join(_heading(name, numeric[name]) for name in shown)
+    told = f"{title} [95 % intervals]" if intervals else title
     body = "".join(
         "<tr>" + "".join(_cell(row, name, numeric[name], intervals.get(name)) for name in shown) + "</tr>\n"
         for row in rows
     )
     return (
-        f'<div class="scroll"><table><caption>{escape(title)}</caption><thead><tr>{head}</tr></thead>\n'
+        f'<div class="scroll"><table><caption>{escape(told)}</caption><thead><tr>{head}</tr></thead>\n'
         f"<tbody>\n{body}</tbody></table></div>"
     )
 
 
 def interval_text(value: float, low: float, high: float) -> str:
-    """0.832 [0.829, 0.835]: to two digits of the interval's half-width."""
+    """0.832 [0.829, 0.835]: to the first digit of the interval's half-width, or the second after a 1 or 2."""
     if not (math.isfinite(low) and math.isfinite(high)):
         return number_text(value)
     half = (high - low) / 2
-    decimals = min(max(1 - math.floor(math.log10(half)), 0), 5) if half > 0 else 3
+    decimals = min(max(-math.floor(math.log10(half / 3)), 0), 5) if half > 0 else 3
     told = [f"{each:.{decimals}f}" for each in (value, low, high)] if half > 0 else [f"{value:.4g}"] * 3
-    return f"{told[0]} [{told[1]}, {told[2]}]".replace("-", "\u2212")
+    return f"{told[0]}\u00a0[{told[1]},\u00a0{told[2]}]".replace("-", "\u2212")
 
 
-def number_text(value: Any) -> str:
-    """A number to four digits, whole ones whole; a dash where there is none."""
-    if isinstance(value, float) and not math.isfinite(value):
+def tidy(text: str) -> str:
+    """Escaped text with true minus signs and inequalities."""
+    return escape(re.sub(r"(?<![\w.])-(?=\d)", "\u2212", text).replace("<=", "\u2264").replace(">=", "\u2265"))
+
+
+def number_text(value: float) -> str:
+    """A whole number as it is, others to four digits, or four decimals below 1; a dash where there is none."""
+    if isinstance(value, int):
+        text = str(value)
+    elif not math.isfinite(value):
         return _DASH
-    text = str(value) if isinstance(value, int) else f"{value:.4g}"
+    elif value.is_integer():
+        text = f"{value:.0f}"
+    else:
+        text = f"{value:.4g}" if abs(value) >= 1 else f"{value:.4f}"
     return text.replace("-", "\u2212")
 
 
@@ -99,10 +111,9 @@ def _intervals(names: Sequence[str]) -> dict[str, tuple[str, str]]:
     return found
 
 
-def _heading(name: str, numeric: bool, interval: bool) -> str:
+def _heading(name: str, numeric: bool) -> str:
     words, unit = COLUMNS.get(name, (name.replace("_", " "), ""))
-    small = ", ".join(part for part in (unit, "95 % interval" if interval else "") if part)
-    told = f'<span class="unit">{escape(small)}</span>' if small else ""
+    told = f'<span class="unit">{escape(unit)}</span>' if unit else ""
     return f"<th{_numeric(numeric)}>{escape(words)}{told}</th>"
 
 

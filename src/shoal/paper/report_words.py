@@ -1,5 +1,10 @@
 """What the report says in full sentences."""
 
+from shoal.paper import cases
+from shoal.paper.claims import ABOUT
+from shoal.paper.curves import FEW
+from shoal.paper.published import BARS
+
 TITLES = {
     "oceans2020": (
         "Reproduction: Heterogeneous Swarms for Maritime Dynamic Target Search and Tracking",
@@ -32,35 +37,35 @@ COLUMNS: dict[str, tuple[str, str]] = {
     "time_on_target": ("time on target at k*", "share of steps"),
     "xi_peak_k": ("k of the peak of Ξ", ""),
     "xi": ("Ξ there", ""),
-    "at_edge": ("at the edge", "of the k run"),
+    "at_edge": ("at edge", "of the k"),
     "tolerance": ("tolerated", ""),
 }
 METRICS = {"time_on_target": "time on target [share of steps]", "xi": "Ξ", "response": "response [unit/step]"}
 
 _SEEDS = (
-    "Each point is run with several seeds. Its interval is Student\u2019s t over them, at 95 %; with two or three "
+    f"Each point is run with several seeds. Its interval is Student\u2019s t over them, at 95 %; with fewer than {FEW} "
     "seeds their spread is pooled over points. Run r of every point shares its chance (target path and starts), "
     "so comparisons are made seed by seed, and a difference can be sure although two bands overlap."
 )
+
+_RULE = " ".join((cases.__doc__ or "").split("\n\n", 1)[-1].split())  # said once, beside the code that applies it
 
 METHOD = {
     "oceans2020": (
         _SEEDS,
         "The place of a peak is that of a cubic through the points within 6 of the highest one. Its interval is a "
         "bootstrap over seeds, in blocks of neighboring points.",
-        "A claim is split into cases: a k, a target speed, a swarm. A case is true where its 95 % interval lies inside "
-        "what the claim says, false where it lies outside, and open where it does both. If all are true, the claim "
-        "holds. If some are true and some false, or at least half are true and none is false, it holds partly. If none "
-        "is true and some are false, it does not hold. Else it is undecided. The key number is that of the case that "
-        "speaks most against the claim.",
-        "Where the paper reads a k off a plot (\u201cabout 18\u201d), 2.5 to either side are allowed. Nothing was "
-        "tuned to make a claim pass.",
+        _RULE,
+        "The key number of a claim is that of the case that speaks most against it.",
+        "Where the paper reads a k off a plot (\u201cabout 18\u201d), "
+        f"{ABOUT:g} to either side are allowed. Nothing was tuned to make a claim pass.",
     ),
     "aamas2020": (
         _SEEDS,
-        "A published value is met where ours differs by no more than 0.015 (time on target) or 3 % (response), or, "
-        "where that is wider, by no more than one more run of ours would (95 % prediction interval). A claim holds if "
-        "all its values are met, partly if some are.",
+        f"A published value is met where ours differs by no more than {BARS['time_on_target'][0]:g} (time on target), "
+        f"{100 * BARS['response'][1]:g} % (response), or, where that is wider, than one more run of ours would (95 % "
+        "prediction interval). The claims\u2019 cases are these values, each true or false, not open.",
+        _RULE,
         "Published are values for adaptive repulsion only; of constant repulsion the figure shows our curve alone.",
     ),
 }

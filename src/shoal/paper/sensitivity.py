@@ -23,13 +23,14 @@ def peak_table(rows: Sequence[Row]) -> list[Row]:
 
 
 def conclusion_table(rows: Sequence[Row]) -> list[Row]:
-    """One row per variant: the verdicts on C3 to C6, and which of them are not those of the first variant."""
+    """One row per variant: the verdicts on C3 to C6, and which of them the first variant decides otherwise."""
     table: list[Row] = []
     for name in _variants(rows):
         mine = [row for row in rows if row["variant"] == name]
         verdicts = {claim.id: claim.verdict for claim in (conclude(mine) for conclude in CONCLUSIONS)}
         printed = table[0] if table else verdicts
-        changed = [id_ for id_, verdict in verdicts.items() if verdict != printed[id_]]
+        decided = [id_ for id_ in verdicts if "undecided" not in (verdicts[id_], printed[id_])]
+        changed = [id_ for id_ in decided if verdicts[id_] != printed[id_]]
         table.append({"variant": name, **verdicts, "changed": " ".join(changed)})
     return table
 

@@ -1,0 +1,52 @@
+"""Which conclusions depend on a choice: those whose verdict another choice turns."""
+
+import pytest
+
+from paper_rows import KS, hill, made
+from shoal.paper.sensitivity import conclusion_table, peak_table
+
+POINTS = [(fast, k, 3.0) for fast in (15, 0) for k in KS]
+
+
+def variant(name, best, xi=25):
+    metrics = {
+        "time_on_target": lambda fast, k, speed: hill(best if fast else best + 5)(k),
+        "xi": lambda fast, k, speed: hill(xi)(k),
+    }
+    return made(metrics, points=POINTS, variant=name)
+
+
+def test_one_row_of_peaks_for_each_variant_and_swarm_with_the_truth_inside():
+    table = peak_table([*variant("baseline", 18), *variant("omega", 22)])
+    assert [(row["variant"], row["fast"]) for row in table] == [
+        ("baseline", 15), ("baseline", 0), ("omega", 15), ("omega", 0)
+    ]  # fmt: skip
+    for row, truth in zip(table, (18, 23, 22, 27), strict=True):
+        assert row["k_star_low"] <= truth <= row["k_star_high"]
+        assert row["xi_peak_k_low"] <= 25 <= row["xi_peak_k_high"]
+        assert row["time_on_target_low"] < row["time_on_target"] == pytest.approx(0.8, abs=0.003)
+        assert not row["at_edge"]
+
+
+def test_rows_without_variants_are_told_apart_by_swarm_and_speed():
+    table = peak_table(made({"time_on_target": lambda *_: 0.5, "xi": lambda *_: 0.5}))
+    assert [(row["target_speed"], row["fast"]) for row in table] == [(3.0, 15), (3.0, 0), (5.0, 15), (5.0, 0)]
+    assert "variant" not in table[0]
+
+
+def test_a_conclusion_that_turns_is_named():
+    baseline, same, late = conclusion_table([*variant("baseline", 18), *variant("same", 18), *variant("late", 30)])
+    assert (baseline["C3"], baseline["C6"], baseline["changed"]) == ("holds", "holds", "")
+    assert same["changed"] == ""
+    assert (late["C3"], late["C4"], late["C6"]) == ("does not hold", "holds", "does not hold")
+    assert late["changed"] == "C3 C6"
+
+
+def test_what_is_undecided_has_not_turned():
+    flat = made({"time_on_target": lambda *_: 0.5, "xi": lambda *_: 0.5}, points=POINTS, variant="flat")
+    assert conclusion_table([*variant("baseline", 18), *flat])[1]["changed"] == ""
+
+
+def test_without_variants_there_are_no_conclusions():
+    assert conclusion_table([]) == []
+    assert peak_table([]) == []
