@@ -14,7 +14,7 @@ def test_every_public_name_is_there(name):
 
 
 def test_a_name_that_is_not_there_is_answered_with_those_that_are():
-    with pytest.raises(AttributeError, match="it has: .*simulate"):
+    with pytest.raises(AttributeError, match=r"it has: .*simulate"):
         shoal.simulator  # noqa: B018
 
 
@@ -23,6 +23,7 @@ def test_simulate_is_a_function_after_every_module_was_imported():
         "import importlib, pkgutil, shoal\n"
         "for module in pkgutil.walk_packages(shoal.__path__, 'shoal.'):\n"
         "    if '__main__' not in module.name: importlib.import_module(module.name)\n"
-        "assert all(callable(getattr(shoal, name)) or name.startswith('_') for name in shoal.__all__ if name[0].islower())"
+        "names = [name for name in shoal.__all__ if name[0].islower()]\n"
+        "assert all(callable(getattr(shoal, name)) for name in names)"
     )
     subprocess.run([sys.executable, "-c", script], check=True)

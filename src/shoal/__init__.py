@@ -8,7 +8,7 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from shoal.version import VERSION as __version__
+from shoal.version import VERSION as __version__  # noqa: N811 (the name every package has)
 
 if TYPE_CHECKING:
     from shoal.core.draws import normal, uniform

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from shoal.scenario.load import read_table, scenario_from
 from shoal.runs import simulate
+from shoal.scenario.load import read_table, scenario_from
 from shoal.viz.style import RC, style
 from shoal.viz.summary import summary_figure
 

@@ -69,7 +69,8 @@ class Swarm(NamedTuple):
     """State and make of N agents, in arrays of L >= N lanes; lanes from N on are padding and never seen.
 
     x, y, vx, vy : position and velocity; command_x, command_y : the speed-limited velocity before the wall
-    neighbors : k of each agent; fleet : index of the agent's fleet; fleet_end : (F,) one past the last agent of each fleet; memory : the strategy's own fields
+    neighbors : k of each agent; memory : the strategy's own fields
+    fleet : index of the agent's fleet; fleet_end : (F,) one past the last agent of each fleet
     """
 
     x: Floats
