@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from shoal.paper.cases import Case, counted, told, verdict_of
-from shoal.paper.curves import Interval, curve
+from shoal.paper.curves import Floats, Interval, curve, intervals
 from shoal.paper.results import Claim, Row
 from shoal.record.statistics import t_quantile
 
@@ -44,10 +44,11 @@ def residual_table(rows: Sequence[Row]) -> list[Row]:
         absolute, relative = BARS[metric]
         ours = curve(rows, metric, preset=PRESET)
         spread = _spread(ours.runs) if ours.x.size else math.nan
+        found = dict(zip(ours.x, intervals(list(ours.runs.T)), strict=True))
         for k, published in zip(NEIGHBORS, numbers, strict=True):
-            if k not in ours.x:
+            if k not in found:
                 continue
-            measured = ours.intervals()[int(np.flatnonzero(ours.x == k)[0])]
+            measured = found[k]
             residual = measured.value - published
             tolerance = float(np.fmax(absolute + relative * published, spread))
             table.append(
@@ -95,7 +96,7 @@ def published_claims(table: Sequence[Row]) -> list[Claim]:
     return claims
 
 
-def _spread(runs: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
+def _spread(runs: Floats) -> float:
     """Half of the 95 % prediction interval of one more run, from runs (R, K) about their means."""
     seeds, places = runs.shape
     if seeds < 2:

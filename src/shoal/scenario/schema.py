@@ -198,13 +198,13 @@ _LIMITS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", 
 
 
 def _with_limits(schema: Any) -> Any:
-    """Move pydantic's limits of a quantity, which is a number or a text with a unit, to its number."""
+    """Write the limits of quantities in JSON Schema's words, with the number and not with the text beside it."""
     if isinstance(schema, list):
         return [_with_limits(each) for each in schema]
     if not isinstance(schema, dict):
         return schema
-    result = {key: _with_limits(value) for key, value in schema.items() if "unit" not in schema or key not in _LIMITS}
+    result = {_LIMITS.get(key, key): _with_limits(value) for key, value in schema.items()}
     if "unit" in schema:
-        limits = {_LIMITS[key]: value for key, value in schema.items() if key in _LIMITS}
+        limits = {key: result.pop(key) for key in _LIMITS.values() if key in result}
         result["anyOf"] = [{**result["anyOf"][0], **limits}, *result["anyOf"][1:]]
     return result
