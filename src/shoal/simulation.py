@@ -1,15 +1,18 @@
 """Simulation: one run of a scenario that can be advanced, looked at, saved and resumed at any step."""
 
 import math
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
 
 import numpy as np
+from numba.core.errors import NumbaError
 
 from shoal.core.agents import Swarm, new_swarm
-from shoal.core.errors import RecordError, ScenarioError
+from shoal.core.errors import RecordError, ScenarioError, StrategyError
 from shoal.core.kernel import cache_folder, uncached
 from shoal.engine.rollout import Frames, begin_run, rollout
 from shoal.metrics.summary import Facts
@@ -65,7 +68,8 @@ class Simulation:
         self._begin, self._rollout = _compiled(strategy)
         self._seed = np.uint64(scenario.seed)
         places = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
-        self._begin(self.world, self.swarm, self.targets, self.tracks, places, self.params, self._seed, run)
+        with _compiling(strategy):
+            self._begin(self.world, self.swarm, self.targets, self.tracks, places, self.params, self._seed, run)
 
     def advance(self, steps: int, *, every: int | None = None, tail: int | None = None) -> Trajectory | None:
         """Run so many steps; with `every`, return the frames of every so many-th step and of all from step `tail` on.
@@ -76,22 +80,23 @@ class Simulation:
         tail = _NEVER if tail is None else tail
         kept = count_frames(self.number, last, every, tail)
         frames = self._new_frames(kept)
-        self._rollout(
-            self.world,
-            self.swarm,
-            self.targets,
-            self.tracks,
-            self.params,
-            self.tally,
-            self._seed,
-            self.run,
-            self.number,
-            last,
-            self.scenario.steps,
-            frames,
-            every or _NEVER,
-            tail,
-        )
+        with _compiling(self.scenario.strategy.owner):
+            self._rollout(
+                self.world,
+                self.swarm,
+                self.targets,
+                self.tracks,
+                self.params,
+                self.tally,
+                self._seed,
+                self.run,
+                self.number,
+                last,
+                self.scenario.steps,
+                frames,
+                every or _NEVER,
+                tail,
+            )
         self.number = last
         return Trajectory.from_frames(frames, self.memory_fields) if kept else None
 
@@ -127,7 +132,7 @@ class Simulation:
         RecordError : no saved state, or one of something else
         """
         try:
-            with np.load(file) as state:
+            with Path(file).open("rb") as stream, np.load(stream) as state:
                 if str(state["identity"]) != self._identity():
                     raise RecordError(
                         str(file),
@@ -163,6 +168,26 @@ class Simulation:
             target_y=np.empty((count, targets)),
             target_present=np.empty((count, targets), np.bool_),
         )
+
+
+@contextmanager
+def _compiling(strategy: Strategy) -> Iterator[None]:
+    """Turn the compiler's pages about a user's strategy into one error."""
+    try:
+        yield
+    except NumbaError as error:
+        if strategy.builtin:
+            raise
+        told = [line.strip() for line in str(error).splitlines() if line.strip()]
+        reason = next(
+            (line for line in reversed(told) if re.search("rror|nknown|not defined|resolve|nvalid", line)), told[0]
+        )
+        lines = re.findall(re.escape(strategy.source) + r'[",(: ]+(?:line )?(\d+)', str(error))
+        raise StrategyError(
+            ":".join([strategy.source, *lines[-1:]]),
+            f"strategy {strategy.name!r} cannot be compiled: {reason}",
+            "kernels take numbers, math, branches and loops; see docs/how-to/own-strategy.md",
+        ) from error
 
 
 def facts_of(scenario: Scenario) -> Facts:

@@ -199,6 +199,22 @@ class TestCrowds:
         assert np.isfinite(simulation.tally.fluctuation).all()
         assert simulation.tally.histogram.sum() == STEPS * agents
 
+    @pytest.mark.parametrize(
+        "exponent",
+        [
+            0.0,
+            1.0,
+            12.0,
+            24.0,
+            pytest.param(40.0, marks=pytest.mark.xfail(strict=True, reason="src: 1e-24^-20.5 is inf")),
+        ],
+    )
+    def test_stay_finite_under_any_exponent(self, exponent):
+        simulation = Simulation(swarm_of(64, **{"strategy.repulsion_exponent": exponent}))
+        simulation.swarm.x[:64], simulation.swarm.y[:64] = crowd("two heaps", 64)
+        simulation.advance(STEPS)
+        assert np.isfinite([simulation.swarm.x, simulation.swarm.y]).all()
+
     def test_a_crowd_repeats_itself_too(self):
         ends = []
         for chunk in (1, 30, STEPS):

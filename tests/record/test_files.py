@@ -190,15 +190,12 @@ DAMAGES = {
 }
 
 
-LEAK = pytest.mark.xfail(run=False, reason="src: np.load leaves the file open where it raises BadZipFile")
-
-
 class TestDamage:
     """A damaged record is refused with one error, whatever is wrong."""
 
     @pytest.mark.parametrize(
         "damage",
-        [pytest.param(name, marks=LEAK if name == "tallies.npz cut short" else ()) for name in DAMAGES],
+        list(DAMAGES),
     )
     def test_is_found_at_the_door(self, saved, damage):
         DAMAGES[damage](saved)

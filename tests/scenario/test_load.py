@@ -335,10 +335,9 @@ class TestFiles:
         assert caught.value.args[0] == str(tmp_path / "my_strategy.py")
 
 
-NO_LIMITS = pytest.mark.xfail(strict=True, reason="src: _with_limits looks beside anyOf, pydantic writes gt inside")
 KEYWORDS = {
     "$defs", "$ref", "additionalProperties", "anyOf", "const", "default", "description", "discriminator", "enum",
-    "exclusiveMaximum", "exclusiveMinimum", "ge", "gt", "items", "le", "maxItems", "maximum", "minItems", "minLength", "minimum", "oneOf",
+    "exclusiveMaximum", "exclusiveMinimum", "items", "maxItems", "maximum", "minItems", "minLength", "minimum", "oneOf",
     "pattern", "prefixItems", "properties", "required", "title", "type", "unit",
 }  # fmt: skip
 TYPES = {"object": dict, "array": (list, tuple), "string": str, "null": type(None), "boolean": bool}
@@ -411,8 +410,8 @@ class TestJsonSchema:
             ("fleets.0.start", "anywhere"), ("network.neighbors", 0),
             ("motion.update_order", "sync"), ("strategy.name", "knn-spo"), ("strategy.inerta", 1.0),
             ("strategy.follow", "anybody"), ("targets.0.kind", "waypont"),
-            pytest.param("area.width", -1.0, marks=NO_LIMITS), pytest.param("fleets.0.max_speed", 0, marks=NO_LIMITS),
-            pytest.param("targets.0.max_turn", 181.0, marks=NO_LIMITS),
+            ("area.width", -1.0), ("fleets.0.max_speed", 0),
+            ("targets.0.max_turn", 181.0),
         ],
     )  # fmt: skip
     def test_refuses_what_a_scenario_may_not_say(self, path, value):

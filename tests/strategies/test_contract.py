@@ -257,6 +257,12 @@ class TestErrors:
         where, _, _ = refusal(tmp_path, DRIFTER.replace("turn_chance: float = 0.05", "turn_chance: float"))
         assert str(tmp_path / "my_strategy.py") in where
 
+    @pytest.mark.slow
+    def test_a_function_that_cannot_be_compiled(self, tmp_path):
+        chosen = using(written(tmp_path, DRIFTER.replace("if heard.found:", "if heard.target_x > 0.0:")))
+        with pytest.raises(StrategyError, match="target_x"):
+            Simulation(chosen).advance(1)
+
     def test_parameters_that_are_no_named_tuple(self):
         with pytest.raises(StrategyError, match="is no NamedTuple"):
             strategy("mine", params=dict)(lambda me, heard, memory, params, draw: (0.0, 0.0))

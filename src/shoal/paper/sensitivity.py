@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from shoal.paper.claims import SWARMS, c3, c4, c5, c6
 from shoal.paper.curves import Interval, curve, peak, values_of
+from shoal.paper.plan import MIXED
 from shoal.paper.results import Row
 
 CONCLUSIONS = (c3, c4, c5, c6)
@@ -23,7 +24,9 @@ def peak_table(rows: Sequence[Row]) -> list[Row]:
 
 
 def conclusion_table(rows: Sequence[Row]) -> list[Row]:
-    """One row per variant: the verdicts on C3 to C6, and which of them the first variant decides otherwise."""
+    """One row per variant: the verdicts on C3 to C6, which of them the first variant decides otherwise, and the best
+    time on target of the mixed swarm: where it is near zero, peaks are peaks of nothing.
+    """
     table: list[Row] = []
     for name in _variants(rows):
         mine = [row for row in rows if row["variant"] == name]
@@ -31,7 +34,8 @@ def conclusion_table(rows: Sequence[Row]) -> list[Row]:
         printed = table[0] if table else verdicts
         decided = [id_ for id_ in verdicts if "undecided" not in (verdicts[id_], printed[id_])]
         changed = [id_ for id_ in decided if verdicts[id_] != printed[id_]]
-        table.append({"variant": name, **verdicts, "changed": " ".join(changed)})
+        best = curve([row for row in mine if row["fast"] == MIXED], "time_on_target").mean.max(initial=0.0)
+        table.append({"variant": name, **verdicts, "changed": " ".join(changed), "time_on_target": float(best)})
     return table
 
 

@@ -114,7 +114,7 @@ def open_record(folder: str | Path) -> Record:
     try:
         content = json.loads((folder / "record.json").read_text(encoding="utf-8"))
         facts = Facts._make(tuple(part) if isinstance(part, list) else part for part in content["facts"].values())
-        with np.load(folder / "tallies.npz") as arrays:
+        with (folder / "tallies.npz").open("rb") as stream, np.load(stream) as arrays:
             tallies = tuple(
                 Tally(*(arrays[f"{run}.{name}"] for name in Tally._fields)) for run in range(content["summary"]["runs"])
             )
