@@ -94,7 +94,9 @@ def run(
     table = edited_table(scenario, changes, assignments or [], target_track, track_id)
     chosen = scenario_from(table, where=scenario)
     if needs_compiling(chosen):
-once = "once per version of Shoal" if chosen.strategy.owner.builtin else "a file of yours is compiled every time"
+        once = (
+            "once per version of Shoal" if chosen.strategy.owner.builtin else "a file of yours is compiled every time"
+        )
         note(f"compiling the engine for strategy {chosen.strategy.name!r} (about 15 s, {once})")
     with progress_bar(f"{chosen.name}, {runs} x {chosen.steps:,} steps") as progress:
         record = simulate(chosen, runs=runs, jobs=jobs, every=every, out=out, progress=progress)

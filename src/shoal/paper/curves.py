@@ -159,8 +159,8 @@ def peak(of: Curve) -> Peak:
 
     Smoothed: near its top a curve is flat, so the highest point is largely luck (its place varies by one k between
     repetitions of five seeds). A cubic through the points within 6 of the highest one gives the place to 0.3 with a
-    bias below 0.2; a parabola is off by up to 0.8, because the curves rise and fall unequally. Where k is run in steps of
-    3 only, the bias is up to 0.5, and the interval knows nothing of it.
+    bias below 0.2; a parabola is off by up to 0.8, because the curves rise and fall unequally. Where k is run in steps
+    of 3 only, the bias is up to 0.5, and the interval knows nothing of it.
 
     Intervals by a bootstrap over seeds in blocks: a made-up seed's residuals (its curve less the mean curve) are blocks
     of 4 neighboring points, each from a random seed and place, enlarged by sqrt(R / (R - 1)). Drawing whole curves
