@@ -1,4 +1,6 @@
-"""How hypothesis searches."""
+"""How hypothesis searches, and who compiles."""
+
+from contextlib import suppress
 
 from hypothesis import HealthCheck, settings
 
@@ -14,3 +16,13 @@ settings.register_profile(
 )
 settings.register_profile("search", settings.get_profile("repeatable"), derandomize=False)
 settings.load_profile("repeatable")
+
+
+def pytest_configure(config):
+    """Fill the engine's cache before xdist starts its workers: else each compiles the same, half as fast."""
+    if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
+        with suppress(Exception):  # what is wrong with the engine, the tests will tell
+            from shoal.scenario.load import load
+            from shoal.simulation import Simulation
+
+            Simulation(load("oceans2020")).advance(0)

@@ -17,7 +17,7 @@ from shoal.simulation import Simulation
 PRESETS = ["oceans2020", "aamas2020", "aamas2020-constant"]
 SEQUENTIAL = {"motion.update_order": "sequential"}
 STATES = 200  # of a preset
-STATES_OF_A_VARIANT = 25
+STATES_OF_A_VARIANT = 15
 APART = 7  # steps between two of them
 
 SIZES = [
@@ -188,8 +188,15 @@ class TestTally:
 
     STEPS = 300
 
-    @pytest.mark.parametrize("preset", PRESETS[:2])
-    @pytest.mark.parametrize("makes", [[(50, 1.0)], [(15, 2.6), (35, 1.0)], [(10, 2.6), (27, 1.0), (13, 0.4)]])
+    @pytest.mark.parametrize(
+        ("preset", "makes"),
+        [
+            ("oceans2020", [(50, 1.0)]),
+            ("oceans2020", [(15, 2.6), (35, 1.0)]),
+            ("oceans2020", [(10, 2.6), (27, 1.0), (13, 0.4)]),
+            ("aamas2020", [(10, 2.6), (27, 1.0), (13, 0.4)]),
+        ],
+    )
     def test_sums_by_fleet_and_by_batch(self, preset, makes):
         chosen = scenario(preset, {"fleets": fleets(*makes), "steps": self.STEPS})
         simulation, model = Simulation(chosen), model_of(chosen)

@@ -55,7 +55,7 @@ def influence(me, other, params):
         fourth = inverse * inverse
         push = fourth * fourth * math.sqrt(square)  # r^-7
     else:
-        push = square ** (-0.5 * (params.repulsion_exponent + 1.0))
+        push = min(square ** (-0.5 * (params.repulsion_exponent + 1.0)), _LARGEST_PUSH)
     return push * dx, push * dy
 
 
@@ -92,6 +92,7 @@ def adapt_repulsion(me, heard, memory, params):
         memory.repulsion += params.delta
 
 
+_LARGEST_PUSH = 1e100  # finite under any exponent, so that zero distance times it is zero
 _SOFTENING = 1e-24  # [m^2]: below the last digit of any distance over 10 nm
 
 strategy(
