@@ -9,6 +9,7 @@ from cyclopts import Parameter
 
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
+from shoal.cli.startup import load_compiler
 
 
 def run(
@@ -71,6 +72,7 @@ def run(
     json_
         Print one JSON object and nothing else.
     """
+    load_compiler()
     from shoal.core.errors import ScenarioError
     from shoal.runs import simulate
     from shoal.scenario.load import scenario_from

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 from cyclopts import Parameter
 
 from shoal.cli.progress import note
+from shoal.cli.startup import load_compiler
 from shoal.cli.sweep_progress import sweep_progress
 
 
@@ -66,6 +67,7 @@ def sweep(
     dry_run
         Print the design, the number of runs and an estimate of the time; run nothing.
     """
+    load_compiler()
     from shoal.core.errors import ScenarioError
     from shoal.experiments.cells import make_cells
     from shoal.experiments.executors import in_threads, on_dask
