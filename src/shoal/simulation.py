@@ -76,6 +76,8 @@ class Simulation:
 
         Memory and results do not depend on how a run is cut into calls.
         """
+        if steps < 0:
+            raise ScenarioError("advance", f"is asked for {steps} steps", "time goes forward: ask for 0 or more")
         last = self.number + steps
         tail = _NEVER if tail is None else tail
         kept = count_frames(self.number, last, every, tail)
@@ -98,6 +100,7 @@ class Simulation:
                 tail,
             )
         self.number = last
+        self._check_finite()
         return Trajectory.from_frames(frames, self.memory_fields) if kept else None
 
     def state(self) -> dict[str, Any]:
@@ -139,17 +142,38 @@ class Simulation:
                         f"was saved by {state['identity']}, this is {self._identity()}",
                         "use the same scenario",
                     )
-                for group in ("swarm", "tally"):
-                    for name, part in getattr(self, group)._asdict().items():
-                        part[...] = state[f"{group}.{name}"]
-                self.targets[...] = state["targets"]
-                self.number = int(state["number"])
+                saved = dict(state)  # read whole before anything is overwritten
+                number = int(saved["number"])
+                mine = self.state()
+                for name in mine:
+                    if saved[name].shape != mine[name].shape:
+                        raise ValueError(f"{name} has another shape")
+                for name in mine.keys() - {"number", "identity"}:
+                    mine[name][...] = saved[name]
+                self.number = number
         except (OSError, ValueError, KeyError, EOFError, BadZipFile) as error:
             if isinstance(error, RecordError):
                 raise
             raise RecordError(
                 str(file), f"is no saved state: {error}", "name a file made by Simulation.save"
             ) from error
+
+    def _check_finite(self) -> None:
+        """Refuse to go on with numbers that a strategy has spoiled.
+
+        Raises
+        ------
+        StrategyError : a position, a velocity or a sum is not finite
+        """
+        swarm = self.swarm
+        parts = (swarm.x, swarm.y, swarm.vx, swarm.vy, self.tally.fluctuation)
+        if not all(np.isfinite(part).all() for part in parts):
+            strategy = self.scenario.strategy.owner
+            raise StrategyError(
+                strategy.source,
+                f"strategy {strategy.name!r} wanted a velocity that is no finite number, before step {self.number}",
+                "look for a division by zero or the root of a negative number",
+            )
 
     def _identity(self) -> str:
         return f"{self.scenario.hash}-seed{self.scenario.seed}-run{self.run}-results{RESULTS_VERSION}"

@@ -86,7 +86,7 @@ def _text_of(source: str | Path) -> str:
         return preset
     path = Path(source)
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
         raise ScenarioError(str(source), "is not a text file", "name a TOML file or a preset") from None
     except OSError as error:

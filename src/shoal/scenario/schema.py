@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from shoal.core.units import Degrees, Kilograms, Meters, MetersPerSecond, Seconds
 from shoal.scenario.strategy_choice import StrategyChoice
 
+MOST_AGENTS = 10_000  # the engine keeps all squared distances: 800 MB
 ARENA_UNITS = 20.0  # the paper's arena measures 20 units; one is the length its figures are in
 
 
@@ -158,8 +159,10 @@ class Scenario(Frozen):
 
     @model_validator(mode="after")
     def _two_agents(self) -> Self:
-        if not 2 <= self.agents <= 100_000:
-            raise ValueError(f"the fleets have {self.agents} agents together; a swarm has 2 to 100000; change count")
+        if not 2 <= self.agents <= MOST_AGENTS:
+            raise ValueError(
+                f"the fleets have {self.agents} agents together; a swarm has 2 to {MOST_AGENTS}; change count"
+            )
         return self
 
     @model_validator(mode="after")

@@ -46,6 +46,8 @@ class Strategy:
     decide: Callable[..., Any]
 
 
+RESERVED = ("name", "file", "source")  # what else a [strategy] table says
+
 CATALOGUE: dict[str, Strategy] = {}  # by name; the last one registered under a name
 _OWNERS: dict[type[Any], Strategy] = {}  # by class of parameters; all that were ever registered
 
@@ -86,6 +88,9 @@ def strategy(
         bare = [field for field in fields if field not in params._field_defaults]
         if bare:
             raise StrategyError(where, f"parameter {bare[0]!r} has no default", f"write {bare[0]}: float = ...")
+        taken = [field for field in fields if field in RESERVED]
+        if taken:
+            raise StrategyError(where, f"parameter {taken[0]!r} is a word of the [strategy] table", "rename it")
         if params in _OWNERS:
             problem = f"params={params.__name__} belong to strategy {_OWNERS[params].name!r}"
             raise StrategyError(
