@@ -223,6 +223,7 @@ class TestProcess:
         _, said = process.communicate(timeout=30)
         assert time.monotonic() - asked < 2.0
         assert process.returncode == 130
+        assert "interrupted; nothing was left half-written" in said
         assert "Traceback" not in said
         assert list(tmp_path.iterdir()) == []
 

@@ -16,6 +16,7 @@ app = App(
     version=VERSION,
     help="Design, test and deploy swarms that search for and track moving targets at sea.",
     help_format="plaintext",
+    suppress_keyboard_interrupt=False,  # run_command says what an interrupt left behind
 )
 app.command("shoal.cli.run:run", name="run", help="Run a scenario and print its metrics.")
 app.command("shoal.cli.show:show", name="show", help="Print the table of a saved record, and draw its figure.")

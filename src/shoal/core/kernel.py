@@ -14,6 +14,7 @@ from typing import Any, TypeVar, cast
 
 import numba
 from numba.core import config as numba_config
+from numba.core.registry import CPUDispatcher
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -23,9 +24,9 @@ _COMPILED_FOLDERS = ("core", "world", "strategies", "metrics", "engine")
 
 def kernel(function: Function) -> Function:
     """Compile a function that other kernels call; it is compiled into them and not cached by itself."""
-    if hasattr(function, "py_func"):
-        return function  # compiled already
-    return cast(Function, numba.njit(function, forceinline=True, **_FLAGS))  # 12 % faster than LLVM's own choice
+    if hasattr(function, "py_func") or _config.DISABLE_JIT:
+        return function  # compiled already, or never
+    return cast(Function, _Inner(function, targetoptions={"nopython": True, **_INNER_FLAGS}))
 
 
 def entry_kernel(function: Function) -> Function:
@@ -48,6 +49,20 @@ def uncached(entry: Function) -> Function:
 # error_model="numpy": the check for division by zero would stop vectorization (2-3x slower). No fastmath: results
 # would depend on the processor. nogil: one thread per run scales to all cores.
 _FLAGS: dict[str, Any] = {"error_model": "numpy", "nogil": True}
+
+
+# forceinline: 12 % faster than LLVM's own choice. No wrappers: only Python needs them, and they are a third of all
+# compile time, because every wrapper optimizes its kernel once more.
+_INNER_FLAGS = {**_FLAGS, "forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+
+
+class _Inner(CPUDispatcher):  # type: ignore[misc]
+    """A kernel without wrappers; called from Python, it compiles a twin that has them."""
+
+    def __call__(self, *arguments: Any) -> Any:
+        if not hasattr(self, "twin"):
+            self.twin = numba.njit(self.py_func, **_FLAGS)
+        return self.twin(*arguments)
 
 
 @cache
