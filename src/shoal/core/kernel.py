@@ -56,7 +56,7 @@ _FLAGS: dict[str, Any] = {"error_model": "numpy", "nogil": True}
 _INNER_FLAGS = {**_FLAGS, "forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
-class _Inner(CPUDispatcher):  # type: ignore[misc]
+class _Inner(CPUDispatcher):
     """A kernel without wrappers; called from Python, it compiles a twin that has them."""
 
     def __call__(self, *arguments: Any) -> Any:
