@@ -11,10 +11,13 @@ from zipfile import BadZipFile
 import numpy as np
 from numba.core.errors import NumbaError
 
-from shoal.core.agents import Swarm, new_swarm
+from shoal.core.agents import NEVER, REPORT_BYTES, Minds, Swarm, as_records, new_swarm
 from shoal.core.errors import RecordError, ScenarioError, StrategyError
 from shoal.core.kernel import cache_folder, uncached
-from shoal.engine.rollout import Frames, begin_run, rollout
+from shoal.core.phase import put
+from shoal.engine.phases import PHASES, Addresses
+from shoal.engine.rollout import begin_run, rollout, set_out
+from shoal.engine.stage import Frames, Stage, new_scratch
 from shoal.metrics.summary import Facts
 from shoal.metrics.tally import new_tally
 from shoal.record.trajectory import Trajectory
@@ -24,10 +27,10 @@ from shoal.strategies import Strategy
 from shoal.version import RESULTS_VERSION
 from shoal.world.arena import World
 from shoal.world.placement import PLACES
+from shoal.world.radio import Radio, new_radio
 from shoal.world.targets import KINDS, TARGET, Tracks
 
 BATCHES = 20  # of one run, for batch means
-_NEVER = 1 << 62
 
 
 class Simulation:
@@ -60,16 +63,29 @@ class Simulation:
         self.memory_fields = tuple(strategy.memory)
         self.params = scenario.strategy.kernel_params()
         self.world = _build_world(scenario)
-        self.swarm = _build_swarm(scenario, self.memory_fields)
+        self.swarm = _build_swarm(scenario, strategy)
+        self.radio = _build_radio(scenario, strategy, self.swarm.x.size)
         tracks = open_tracks(scenario)
         self.notes = [note for track in tracks for note in track.notes]
         self.targets, self.tracks = _build_targets(scenario, tracks)
-        self.tally = new_tally(min(BATCHES, scenario.steps), len(scenario.fleets))
+        self.minds = Minds(
+            memory=as_records(self.swarm.memory, self.memory_fields),
+            told=as_records(self.swarm.told, strategy.told),
+            arrived=as_records(self.radio.told, strategy.told),
+        )
+        batches = min(BATCHES, scenario.steps)
+        self.tally = new_tally(scenario.steps, batches, len(scenario.fleets), scenario.agents, len(scenario.targets))
+        self._scratch = new_scratch(self.world, self.swarm.x.size)
         self._begin, self._rollout = _compiled(strategy)
         self._seed = np.uint64(scenario.seed)
         places = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
+        lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
+        here, held = put(self._stage(self._new_frames(0)))
+        self._phases = Addresses._make(phase.address() for phase in PHASES)
+        set_out(here, places, lifetimes, _losses(scenario), self._seed, run)
         with _compiling(strategy):
-            self._begin(self.world, self.swarm, self.targets, self.tracks, places, self.params, self._seed, run)
+            self._begin(here, self.minds, self.params, self._seed, run)
+        del held
 
     def advance(self, steps: int, *, every: int | None = None, tail: int | None = None) -> Trajectory | None:
         """Run so many steps; with `every`, return the frames of every so many-th step and of all from step `tail` on.
@@ -79,26 +95,25 @@ class Simulation:
         if steps < 0:
             raise ScenarioError("advance", f"is asked for {steps} steps", "time goes forward: ask for 0 or more")
         last = self.number + steps
-        tail = _NEVER if tail is None else tail
+        tail = NEVER if tail is None else tail
         kept = count_frames(self.number, last, every, tail)
         frames = self._new_frames(kept)
+        here, held = put(self._stage(frames))
         with _compiling(self.scenario.strategy.owner):
             self._rollout(
-                self.world,
-                self.swarm,
-                self.targets,
-                self.tracks,
+                here,
+                self.minds,
                 self.params,
-                self.tally,
+                self._phases,
                 self._seed,
                 self.run,
                 self.number,
                 last,
                 self.scenario.steps,
-                frames,
-                every or _NEVER,
+                every or NEVER,
                 tail,
             )
+        del held
         self.number = last
         self._check_finite()
         return Trajectory.from_frames(frames, self.memory_fields) if kept else None
@@ -107,6 +122,7 @@ class Simulation:
         """Everything that a resumed run needs, as arrays by name."""
         parts = {f"swarm.{name}": part for name, part in self.swarm._asdict().items()}
         parts |= {f"tally.{name}": part for name, part in self.tally._asdict().items()}
+        parts |= {f"radio.{name}": part for name, part in self.radio._asdict().items() if isinstance(part, np.ndarray)}
         return parts | {
             "targets": self.targets,
             "number": np.array(self.number),
@@ -178,6 +194,9 @@ class Simulation:
     def _identity(self) -> str:
         return f"{self.scenario.hash}-seed{self.scenario.seed}-run{self.run}-results{RESULTS_VERSION}"
 
+    def _stage(self, frames: Frames) -> Stage:
+        return Stage(self.world, self.swarm, self.radio, self.targets, self.tracks, self.tally, self._scratch, frames)
+
     def _new_frames(self, count: int) -> Frames:
         agents, targets = self.scenario.agents, self.targets.size
         return Frames(
@@ -187,7 +206,8 @@ class Simulation:
             vx=np.empty((count, agents)),
             vy=np.empty((count, agents)),
             on_target=np.empty((count, agents), np.bool_),
-            memory=np.empty((count, agents), self.swarm.memory.dtype),
+            alive=np.empty((count, agents), np.bool_),
+            memory=np.empty((count, agents, self.swarm.memory.shape[1])),
             target_x=np.empty((count, targets)),
             target_y=np.empty((count, targets)),
             target_present=np.empty((count, targets), np.bool_),
@@ -219,10 +239,12 @@ def facts_of(scenario: Scenario) -> Facts:
     fleets = scenario.fleets
     return Facts(
         fleets=tuple(fleet.name for fleet in fleets),
-        counts=tuple(fleet.count for fleet in fleets),
+        counts=tuple(scenario.counts),
         max_speeds=tuple(fleet.max_speed for fleet in fleets),
         unit=scenario.unit,
         time_step=scenario.time_step,
+        area=scenario.area.width * scenario.area.height,
+        report_bytes=REPORT_BYTES + 8 * len(scenario.strategy.owner.told),
     )
 
 
@@ -265,7 +287,7 @@ def _compiled(strategy: Strategy) -> tuple[Any, Any]:
 
 
 def _build_world(scenario: Scenario) -> World:
-    area = scenario.area
+    area, fleets = scenario.area, scenario.fleets
     return World(
         agents=scenario.agents,
         fleets=len(scenario.fleets),
@@ -276,18 +298,62 @@ def _build_world(scenario: Scenario) -> World:
         clamp_y=area.height / 2 - area.agent_margin,
         sequential=scenario.motion.update_order == "sequential",
         divide=scenario.motion.speed_rule == "divide",
+        inertial=any(fleet.max_acceleration or fleet.max_turn_rate for fleet in fleets),
+        imperfect=any(fleet.detection_probability < 1 or fleet.false_alarm_probability > 0 for fleet in fleets),
+        mortal=_is_mortal(scenario),
+        target_radius=min(target.radius for target in scenario.targets),
     )
 
 
-def _build_swarm(scenario: Scenario, memory_fields: tuple[str, ...]) -> Swarm:
-    """Agents in the order of the fleets, nowhere yet."""
-    agents = scenario.agents
-    counts = [fleet.count for fleet in scenario.fleets]
-    swarm = new_swarm(counts, memory_fields)
-    swarm.max_speed[:agents] = np.repeat([fleet.max_speed for fleet in scenario.fleets], counts)
-    swarm.sensor_radius[:agents] = np.repeat([fleet.sensor_radius for fleet in scenario.fleets], counts)
-    swarm.neighbors[:agents] = scenario.network.neighbors
+def _is_mortal(scenario: Scenario) -> bool:
+    return bool(scenario.losses or scenario.joins or any(fleet.mean_lifetime for fleet in scenario.fleets))
+
+
+def _build_swarm(scenario: Scenario, strategy: Strategy) -> Swarm:
+    """Agents in the order of the fleets, nowhere yet; those who join later are the last of their fleet."""
+    agents, fleets, counts = scenario.agents, scenario.fleets, scenario.counts
+    swarm = new_swarm(counts, tuple(strategy.memory), strategy.told)
+
+    def fill(array: Any, values: list[Any]) -> None:
+        array[:agents] = np.repeat(values, counts)
+
+    fill(swarm.max_speed, [fleet.max_speed for fleet in fleets])
+    fill(swarm.sensor_radius, [fleet.sensor_radius for fleet in fleets])
+    fill(swarm.detection, [fleet.detection_probability for fleet in fleets])
+    fill(swarm.false_alarm, [fleet.false_alarm_probability for fleet in fleets])
+    fill(swarm.max_acceleration, [fleet.max_acceleration or math.inf for fleet in fleets])
+    fill(swarm.max_turn_rate, [math.radians(fleet.max_turn_rate or math.inf) for fleet in fleets])
+    degrees = [agents - 1 if strategy.hears_all else fleet.neighbors or scenario.network.neighbors for fleet in fleets]
+    fill(swarm.neighbors, [agents - 1 if degree == "all" else degree for degree in degrees])
+    swarm.share_end[:agents] = np.cumsum(swarm.max_speed[:agents]) / swarm.max_speed[:agents].sum()
+    nobody = swarm.fleet_end - [
+        sum(join.count for join in scenario.joins if join.fleet == each.name) for each in fleets
+    ]
+    for join in scenario.joins:
+        fleet = scenario.fleet_names.index(join.fleet)
+        swarm.joins[nobody[fleet] : nobody[fleet] + join.count] = join.step
+        nobody[fleet] += join.count
     return swarm
+
+
+def _build_radio(scenario: Scenario, strategy: Strategy, lanes: int) -> Radio:
+    network, adaptive = scenario.network, scenario.network.adaptive
+    return new_radio(
+        lanes,
+        strategy.told,
+        limited=network.range is not None or network.delay > 0 or _is_mortal(scenario),
+        reach=network.range or math.inf,
+        delay=network.delay,
+        loss=network.loss,
+        degree=(adaptive.fewest, adaptive.most, adaptive.patience) if adaptive else None,
+    )
+
+
+def _losses(scenario: Scenario) -> Any:
+    """Step, fleet (-1: any) and count of every loss, in the order of the steps, (C, 3)."""
+    names = scenario.fleet_names
+    rows = [[loss.step, names.index(loss.fleet) if loss.fleet else -1, loss.count] for loss in scenario.losses]
+    return np.array(sorted(rows), np.int64).reshape(-1, 3)
 
 
 def open_tracks(scenario: Scenario) -> list[Track]:
@@ -310,6 +376,7 @@ def _build_targets(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Any, Tr
         record["kind"] = KINDS.index(target.kind)
         record["radius"] = target.radius
         record["present"] = 1
+        record["lost"] = -1
         if isinstance(target, StillTarget):
             record["x"], record["y"] = target.x, target.y
         elif isinstance(target, WaypointTarget):

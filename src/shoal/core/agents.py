@@ -8,8 +8,6 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from shoal.core.kernel import kernel
-
 Floats = npt.NDArray[np.float64]
 LANE_BLOCK = 8  # arrays are padded to whole vector registers (8 doubles of AVX-512)
 
@@ -21,11 +19,39 @@ def aligned_zeros(size: int) -> Floats:
     return room[shift : shift + size]
 
 
-aligned_zeros_kernel = kernel(aligned_zeros)
+class Briefing(NamedTuple):
+    """What an agent is told before it leaves, and nothing that it could only learn at sea.
+
+    agents : N; half_x, half_y : agents may go to +- these [m]
+    reach : how far its sensor sees the smallest target [m]
+    share_begin, share_end : its part of the swarm's summed top speeds, in the order of ids, from 0 to 1
+    """
+
+    agents: int
+    half_x: float
+    half_y: float
+    reach: float
+    share_begin: float
+    share_end: float
+
+
+class Truth(NamedTuple):
+    """The nearest target as it is, for strategies declared `informed`; all others get zeros.
+
+    present : is there any; x, y [m]; vx, vy [m/s]; goal_x, goal_y : where it is heading to [m]
+    """
+
+    present: bool
+    x: float
+    y: float
+    vx: float
+    vy: float
+    goal_x: float
+    goal_y: float
 
 
 class Own(NamedTuple):
-    """What an agent knows of itself."""
+    """What an agent knows of itself. `time` [s] since the start of the run, `fleet`: index of its fleet."""
 
     id: int
     x: float
@@ -35,10 +61,14 @@ class Own(NamedTuple):
     on_target: bool
     max_speed: float
     time_step: float
+    time: float
+    fleet: int
+    briefing: Briefing
+    truth: Truth
 
 
 class Report(NamedTuple):
-    """What an agent tells its neighbors: the one message of the swarm."""
+    """What an agent tells its neighbors: the one message of the swarm. `told`: the memory fields its strategy tells."""
 
     id: int
     x: float
@@ -46,12 +76,16 @@ class Report(NamedTuple):
     vx: float
     vy: float
     on_target: bool
+    told: Any
+
+
+REPORT_BYTES = 4 + 4 * 8 + 1  # id, position and velocity, on target; each field of `told` adds 8
 
 
 class Heard(NamedTuple):
     """What an agent made of its neighbors' reports: one leader and one sum.
 
-    `found` is whether any neighbor may lead; x, y, vx, vy are the leader's (the agent's own if none).
+    `found` is whether any neighbor may lead; x, y, vx, vy, on_target and told are the leader's (the agent's own if none).
     `sum_x`, `sum_y` are the sums of the strategy's influence over all neighbors; `neighbors` is how many were heard.
     """
 
@@ -60,16 +94,22 @@ class Heard(NamedTuple):
     y: float
     vx: float
     vy: float
+    on_target: bool
     sum_x: float
     sum_y: float
     neighbors: int
+    told: Any
 
 
 class Swarm(NamedTuple):
     """State and make of N agents, in arrays of L >= N lanes; lanes from N on are padding and never seen.
 
     x, y, vx, vy : position and velocity; command_x, command_y : the speed-limited velocity before the wall
-    neighbors : k of each agent; memory : the strategy's own fields
+    alive : 1.0, or 0.0 of an agent that is lost or not yet there; joins, leaves : it is there in steps [joins, leaves)
+    detection, false_alarm : chance per step to notice a target within reach, and to report one that is not there
+    max_acceleration [m/s^2], max_turn_rate [rad/s] : inf for none
+    neighbors : k of each agent; contact : share of recent steps with a leader, by which k may adapt
+    memory, told : (L, fields) what agents remember, and what of it they tell; the strategy sees them as `Minds`
     fleet : index of the agent's fleet; fleet_end : (F,) one past the last agent of each fleet
     """
 
@@ -80,21 +120,54 @@ class Swarm(NamedTuple):
     command_x: Floats
     command_y: Floats
     on_target: npt.NDArray[np.bool_]
+    alive: Floats
     max_speed: Floats
     sensor_radius: Floats
+    detection: Floats
+    false_alarm: Floats
+    max_acceleration: Floats
+    max_turn_rate: Floats
+    joins: npt.NDArray[np.int64]
+    leaves: npt.NDArray[np.int64]
     neighbors: npt.NDArray[np.int64]
+    contact: Floats
+    share_end: Floats
     fleet: npt.NDArray[np.int64]
     fleet_end: npt.NDArray[np.int64]
+    memory: Floats
+    told: Floats
+
+
+class Minds(NamedTuple):
+    """Memory and what is told of it as records, in the words of the strategy: views of Swarm.memory and Swarm.told.
+
+    arrived : (D, L) what was told in the last steps, a view of Radio.told
+    """
+
     memory: npt.NDArray[Any]
+    told: npt.NDArray[Any]
+    arrived: npt.NDArray[Any]
 
 
-def memory_dtype(fields: tuple[str, ...]) -> np.dtype[Any]:
-    """One double per name; a strategy without memory gets one unused field (an empty dtype has no size)."""
-    return np.dtype([(name, np.float64) for name in fields or ("unused",)])
+NEVER = 1 << 62  # a step that does not come
 
 
-def new_swarm(counts: list[int], fields: tuple[str, ...]) -> Swarm:
-    """Return a swarm at rest at the origin; padding lanes lie far away, each at a place of its own."""
+def as_records(numbers: Floats, fields: tuple[str, ...]) -> npt.NDArray[Any]:
+    """Numbers (..., fields) as records with one double per name; see `width`."""
+    dtype = np.dtype([(name, np.float64) for name in fields or ("unused",)])
+    return numbers.view(dtype).reshape(numbers.shape[:-1]).view(np.recarray)
+
+
+def width(fields: tuple[str, ...]) -> int:
+    """Numbers per agent: no names have one unused, for an empty dtype has no size."""
+    return len(fields) or 1
+
+
+def new_swarm(counts: list[int], fields: tuple[str, ...], told: tuple[str, ...] = ()) -> Swarm:
+    """Return a swarm at rest at the origin; padding lanes lie far away, each at a place of its own.
+
+    fields : of the memory; the first of them are `told`
+    """
     agents = sum(counts)
     lanes = -(-agents // LANE_BLOCK) * LANE_BLOCK
     neighbors = np.full(lanes, agents - 1)
@@ -105,6 +178,8 @@ def new_swarm(counts: list[int], fields: tuple[str, ...]) -> Swarm:
     y[:] = x
     fleet = np.zeros(lanes, np.int64)
     fleet[:agents] = np.repeat(np.arange(len(counts)), counts)
+    alive = aligned_zeros(lanes)
+    alive[:agents] = 1.0
     return Swarm(
         x=x,
         y=y,
@@ -113,10 +188,20 @@ def new_swarm(counts: list[int], fields: tuple[str, ...]) -> Swarm:
         command_x=aligned_zeros(lanes),
         command_y=aligned_zeros(lanes),
         on_target=np.zeros(lanes, np.bool_),
+        alive=alive,
         max_speed=np.ones(lanes),
         sensor_radius=aligned_zeros(lanes),
+        detection=np.ones(lanes),
+        false_alarm=np.zeros(lanes),
+        max_acceleration=np.full(lanes, np.inf),
+        max_turn_rate=np.full(lanes, np.inf),
+        joins=np.zeros(lanes, np.int64),
+        leaves=np.full(lanes, NEVER),
         neighbors=neighbors,
+        contact=np.zeros(lanes),
+        share_end=np.zeros(lanes),
         fleet=fleet,
         fleet_end=np.cumsum(counts),
-        memory=np.zeros(lanes, memory_dtype(fields)).view(np.recarray),
+        memory=np.zeros((lanes, width(fields))),
+        told=np.zeros((lanes, width(told))),
     )

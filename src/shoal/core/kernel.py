@@ -7,7 +7,8 @@ cache lives in a folder named by a hash of all our kernel sources (docs/decision
 import hashlib
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar, cast
@@ -24,36 +25,48 @@ _COMPILED_FOLDERS = ("core", "world", "strategies", "metrics", "engine")
 
 def kernel(function: Function) -> Function:
     """Compile a function that other kernels call; it is compiled into them and not cached by itself."""
-    if hasattr(function, "py_func") or _config.DISABLE_JIT:
+    if hasattr(function, "py_func") or not compiles():
         return function  # compiled already, or never
     return cast(Function, _Inner(function, targetoptions={"nopython": True, **_INNER_FLAGS}))
 
 
 def entry_kernel(function: Function) -> Function:
     """Compile a function that Python calls, and keep the machine code on disk for the next process."""
+    with kernel_cache():
+        return cast(Function, numba.njit(function, cache=True, **FLAGS))
+
+
+@contextmanager
+def kernel_cache() -> Iterator[None]:
+    """Let numba keep what is decorated inside in our cache folder."""
     outside = _config.CACHE_DIR
     _config.CACHE_DIR = str(cache_folder())
     try:
-        return cast(Function, numba.njit(function, cache=True, **_FLAGS))
+        yield
     finally:
         _config.CACHE_DIR = outside
 
 
+def compiles() -> bool:
+    """Whether kernels are compiled: not under NUMBA_DISABLE_JIT=1."""
+    return not _config.DISABLE_JIT
+
+
 def uncached(entry: Function) -> Function:
     """Return a twin of an entry kernel that never touches the cache: for strategies whose source we do not hash."""
-    if _config.DISABLE_JIT:
+    if not compiles():
         return entry
-    return cast(Function, numba.njit(entry.py_func, **_FLAGS))  # type: ignore[attr-defined]
+    return cast(Function, numba.njit(entry.py_func, **FLAGS))  # type: ignore[attr-defined]
 
 
 # error_model="numpy": the check for division by zero would stop vectorization (2-3x slower). No fastmath: results
 # would depend on the processor. nogil: one thread per run scales to all cores.
-_FLAGS: dict[str, Any] = {"error_model": "numpy", "nogil": True}
+FLAGS: dict[str, Any] = {"error_model": "numpy", "nogil": True}
 
 
 # forceinline: 12 % faster than LLVM's own choice. No wrappers: only Python needs them, and they are a third of all
 # compile time, because every wrapper optimizes its kernel once more.
-_INNER_FLAGS = {**_FLAGS, "forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+_INNER_FLAGS = {**FLAGS, "forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
 class _Inner(CPUDispatcher):
@@ -61,7 +74,7 @@ class _Inner(CPUDispatcher):
 
     def __call__(self, *arguments: Any) -> Any:
         if not hasattr(self, "twin"):
-            self.twin = numba.njit(self.py_func, **_FLAGS)
+            self.twin = numba.njit(self.py_func, **FLAGS)
         return self.twin(*arguments)
 
 

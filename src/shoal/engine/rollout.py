@@ -1,87 +1,61 @@
-"""Many steps of one run in one compiled call; the two functions that Python calls."""
+"""Many steps of one run in one compiled call; the functions that Python calls."""
 
-from typing import Any, NamedTuple
-
-import numpy as np
-import numpy.typing as npt
-
-from shoal.core.agents import Floats
 from shoal.core.draws import START_STEP, TARGET_STREAM, split
-from shoal.core.kernel import entry_kernel, kernel
-from shoal.engine.step import new_scratch, own, step
+from shoal.core.kernel import entry_kernel
+from shoal.core.phase import at, enter
+from shoal.engine.self import own
+from shoal.engine.step import step, tell
 from shoal.strategies import contract
 from shoal.world.placement import place
+from shoal.world.presence import draw_lifetimes, draw_losses
 from shoal.world.targets import begin_target
 
 
-class Frames(NamedTuple):
-    """Room for K frames of a trajectory, each the state at the start of a step. T targets, L lanes.
-
-    step : (K,); x, y, vx, vy, on_target, memory : (K, L); target_x, target_y, target_present : (K, T)
-    """
-
-    step: npt.NDArray[np.int64]
-    x: Floats
-    y: Floats
-    vx: Floats
-    vy: Floats
-    on_target: npt.NDArray[np.bool_]
-    memory: npt.NDArray[Any]
-    target_x: Floats
-    target_y: Floats
-    target_present: npt.NDArray[np.bool_]
-
-
 @entry_kernel
-def begin_run(world, swarm, targets, tracks, places, params, seed, run):
-    """Place agents and targets and set up every agent's memory."""
+def set_out(here, places, lifetimes, losses, seed, run):
+    """Place agents and targets, and draw who will be lost when. `here` is where the stage is.
+
+    places, lifetimes : (F,) index into PLACES and mean lifetime [s] of each fleet, 0 for ever
+    losses : (C, 3) step, fleet (-1: any) and number of agents of each loss
+    """
+    world, swarm, _, targets, tracks, _, _, _ = at(here)
     run_key = split(split(seed, 0), run)
-    place(swarm, world, places, run_key)
     start_key = split(run_key, START_STEP)
-    for i in range(world.agents):
-        contract.begin(own(swarm, i, world.time_step), swarm.memory[i], params, split(start_key, i))
+    place(swarm, world, places, run_key)
+    draw_lifetimes(swarm, world, lifetimes, run_key)
+    for number, fleet, count in losses:
+        draw_losses(swarm, world, number, fleet, count, run_key)
     for j in range(targets.size):
         begin_target(targets[j], tracks, split(start_key, TARGET_STREAM + j))
 
 
 @entry_kernel
-def rollout(world, swarm, targets, tracks, params, tally, seed, run, first, last, steps, frames, every, tail):
+def begin_run(here, minds, params, seed, run):
+    """Set up every agent's memory."""
+    world, swarm, _, targets, _, _, _, _ = at(here)
+    start_key = split(split(split(seed, 0), run), START_STEP)
+    for i in range(world.agents):
+        me = own(world, swarm, targets, params, 0, i)
+        contract.begin(me, minds.memory[i], params, split(start_key, i))
+    tell(swarm, 0, world.agents)
+
+
+@entry_kernel
+def rollout(here, minds, params, phases, seed, run, first, last, steps, every, tail):
     """Run time-steps first..last of `steps`, in place.
 
     Frames are kept of every `every`-th step and of all from step `tail` on. Splitting a run into several calls changes
-    no bit: what must survive a call is in swarm, targets and tally.
+    no bit: what must survive a call is in the stage.
     """
     run_key = split(split(seed, 0), run)
-    scratch = new_scratch(world, swarm.x.size)
+    world, swarm, radio, targets, _, tally, scratch, frames = at(here)
     batches = tally.steps.size
+    room = frames.step.size
     frame = 0
     for number in range(first, last):
-        if frames.step.size > 0 and (number % every == 0 or number >= tail):
-            _keep_frame(frames, frame, number, world, swarm, targets)
-            frame += 1
         step_key = split(run_key, number)
+        if room > 0 and (number % every == 0 or number >= tail):
+            enter(phases.look, here, number, frame, step_key)
+            frame += 1
         batch = min(number * batches // steps, batches - 1)
-        step(world, swarm, targets, tracks, params, tally, batch, step_key, number, scratch)
-
-
-@kernel
-def _keep_frame(frames, frame, number, world, swarm, targets):
-    """Copy the state at the start of a step."""
-    frames.step[frame] = number
-    for i in range(world.agents):
-        frames.x[frame, i] = swarm.x[i]
-        frames.y[frame, i] = swarm.y[i]
-        frames.vx[frame, i] = swarm.vx[i]
-        frames.vy[frame, i] = swarm.vy[i]
-        frames.memory[frame, i] = swarm.memory[i]
-        touches = False
-        for target in targets:
-            dx = swarm.x[i] - target.x
-            dy = swarm.y[i] - target.y
-            reach = swarm.sensor_radius[i] + target.radius
-            touches |= target.present != 0 and dx * dx + dy * dy <= reach * reach
-        frames.on_target[frame, i] = touches
-    for j in range(targets.size):
-        frames.target_x[frame, j] = targets[j].x
-        frames.target_y[frame, j] = targets[j].y
-        frames.target_present[frame, j] = targets[j].present != 0
+        step(here, world, swarm, radio, targets, scratch, minds, params, phases, batch, step_key, number)

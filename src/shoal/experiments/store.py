@@ -18,7 +18,7 @@ from shoal.experiments.replicate import LIST_COLUMNS, Row
 from shoal.metrics.summary import METRICS
 from shoal.version import RESULTS_VERSION, VERSION
 
-_IDENTITY = ("scenario", "fields", "changes", "independent", "results_version")
+_IDENTITY = ("scenario", "fields", "changes", "independent", "results_version", "metrics")
 
 _SCHEMA = f"""
 CREATE TABLE IF NOT EXISTS meta (name TEXT PRIMARY KEY, value TEXT NOT NULL);

@@ -31,9 +31,10 @@ def tally_heading_bearing(tally, batch, swarm, agents, targets, bearing_x, beari
         end = swarm.fleet_end[fleet]
         stationary = 0
         for i in range(begin, end):
-            stationary += is_stationary(swarm.command_x[i], swarm.command_y[i], swarm.max_speed[i])
+            stops = is_stationary(swarm.command_x[i], swarm.command_y[i], swarm.max_speed[i])
+            stationary += stops & (swarm.alive[i] > 0.0)
         for i in range(begin, end):
-            tally.histogram[batch, fleet, bin_of(phi[i])] += 1
+            tally.histogram[batch, fleet, bin_of(phi[i])] += swarm.alive[i] > 0.0
         tally.stationary[batch, fleet] += stationary
         begin = end
 

@@ -6,28 +6,24 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from shoal.core.agents import Floats
+from shoal.core.agents import REPORT_BYTES, Floats
 from shoal.metrics.tally import Tally, batch_of
 
 
 class Facts(NamedTuple):
-    """What metrics need to know of a scenario: per fleet name, count and max_speed [m/s]; unit [m]; time_step [s]."""
+    """What metrics need to know of a scenario.
+
+    fleets, counts, max_speeds : name, number of agents (those who join later too) and top speed [m/s] of each fleet
+    unit [m] : one arena unit; time_step [s]; area [m^2]; report_bytes : size of one report [B]
+    """
 
     fleets: tuple[str, ...]
     counts: tuple[int, ...]
     max_speeds: tuple[float, ...]
     unit: float
     time_step: float
-
-    @property
-    def agents(self) -> int:
-        """N."""
-        return sum(self.counts)
-
-    @property
-    def mean_max_speed(self) -> float:
-        """vbar_max: mean top speed of the agents [m/s]. Kwa et al., Heterogeneous Swarms, Eq. 6."""
-        return sum(n * v for n, v in zip(self.counts, self.max_speeds, strict=True)) / self.agents
+    area: float = float("nan")
+    report_bytes: int = REPORT_BYTES
 
 
 class Metric(NamedTuple):
@@ -38,8 +34,38 @@ class Metric(NamedTuple):
     formula: Callable[[Tally, Facts], float]
 
 
-def _share(part: npt.NDArray[Any], whole: Floats) -> float:
+def _share(part: npt.NDArray[Any], whole: npt.NDArray[Any]) -> float:
     return float(part.sum() / whole.sum()) if whole.sum() > 0 else float("nan")
+
+
+def _fleet_agents(tally: Tally) -> Floats:
+    """Mean number of agents of each fleet that are there, (F,)."""
+    steps = tally.steps.sum()
+    agents: Floats = tally.agent_steps.sum(axis=0) / (steps if steps > 0 else np.nan)
+    return agents
+
+
+def _agents(tally: Tally) -> float:
+    """N, the mean number of agents that are there."""
+    return float(_fleet_agents(tally).sum())
+
+
+def mean_max_speed(tally: Tally, facts: Facts) -> float:
+    """vbar_max: mean top speed of the agents [m/s]. Kwa et al., Heterogeneous Swarms, Eq. 6."""
+    agents = _fleet_agents(tally)
+    return float(sum(n * v for n, v in zip(agents, facts.max_speeds, strict=True)) / agents.sum())
+
+
+def _seconds(tally: Tally, facts: Facts) -> float:
+    return float(tally.steps.sum()) * facts.time_step
+
+
+def _fairness(tally: Tally) -> float:
+    """Jain's index of the targets' shares of time watched."""
+    there = tally.target_steps.sum(axis=0)
+    shares = tally.watched.sum(axis=0)[there > 0] / there[there > 0]
+    squares = float((shares**2).sum())
+    return float(shares.sum()) ** 2 / (shares.size * squares) if squares > 0 else float("nan")
 
 
 METRICS: dict[str, Metric] = {
@@ -51,10 +77,10 @@ METRICS: dict[str, Metric] = {
     "xi": Metric(
         "1",
         "velocity fluctuation: mean of |v_i - mean v| over steps and agents / mean top speed (Eqs. 5-7)",
-        lambda t, f: _share(t.fluctuation, t.steps) / f.agents / f.mean_max_speed,
+        lambda t, f: _share(t.fluctuation, t.steps) / _agents(t) / mean_max_speed(t, f),
     ),
     "xi_raw": Metric(
-        "m/s", "velocity fluctuation, not normalised", lambda t, f: _share(t.fluctuation, t.steps) / f.agents
+        "m/s", "velocity fluctuation, not normalised", lambda t, f: _share(t.fluctuation, t.steps) / _agents(t)
     ),
     "response": Metric(
         "unit/step",
@@ -67,9 +93,66 @@ METRICS: dict[str, Metric] = {
     "stationary": Metric(
         "1",
         "share of agents slower than a tenth of their top speed while a target is there",
-        lambda t, f: _share(t.stationary, t.present) / f.agents,
+        lambda t, f: _share(t.stationary, t.present) / _agents(t),
     ),
     "target_present": Metric("1", "share of the steps with a target there", lambda t, f: _share(t.present, t.steps)),
+    "targets_observed": Metric(
+        "targets",
+        "mean number of targets that somebody is on (as in CMOMMT: Parker, Autonomous Robots 12, 2002)",
+        lambda t, f: _share(t.watched, t.steps),
+    ),
+    "fairness": Metric(
+        "1",
+        "Jain's index of the targets' time on target: 1 all alike, 1/T one has it all",
+        lambda t, f: _fairness(t),
+    ),
+    "first_detection": Metric(
+        "s",
+        "time at which a target is there until it is first detected, mean over targets",
+        lambda t, f: float(t.undetected.sum(axis=0).mean()) * f.time_step,
+    ),
+    "losses": Metric(
+        "1/h",
+        "how often a target is lost, per hour of it being there",
+        lambda t, f: _share(t.losses, t.target_steps) * 3600.0 / f.time_step,
+    ),
+    "reacquisition": Metric(
+        "s",
+        "mean time from the loss of a target to its next detection",
+        lambda t, f: _share(t.ended_steps, t.ended) * f.time_step,
+    ),
+    "coverage": Metric(
+        "1",
+        "share of the arena that agents pass through in 1,000 steps (grid of 32 x 32)",
+        lambda t, f: _share(t.covered, t.windows),
+    ),
+    "coverage_rate": Metric(
+        "m^2/s",
+        "area that agents newly pass through per second, over 100 steps",
+        lambda t, f: _share(t.swept, t.sweeps) * f.area / (100 * f.time_step),
+    ),
+    "components": Metric(
+        "1", "parts that the network falls into (synchronous order)", lambda t, f: _share(t.components, t.graphs)
+    ),
+    "clustering": Metric(
+        "1",
+        "share of pairs of an agent's neighbors that are linked (synchronous order)",
+        lambda t, f: _share(t.clustering, t.graphs),
+    ),
+    "messages": Metric(
+        "1/s", "reports that an agent receives per second", lambda t, f: _share(t.heard, t.agent_steps) / f.time_step
+    ),
+    "bandwidth": Metric(
+        "B/s",
+        "bytes of reports that an agent receives per second",
+        lambda t, f: _share(t.heard, t.agent_steps) / f.time_step * f.report_bytes,
+    ),
+    "speed": Metric("m/s", "mean speed of the agents", lambda t, f: _share(t.distance, t.agent_steps) / f.time_step),
+    "power": Metric(
+        "m^3/s^3",
+        "mean cube of the agents' speed, a proxy of propulsion power",
+        lambda t, f: _share(t.cubes, t.agent_steps) / f.time_step,
+    ),
 }
 
 
@@ -89,12 +172,21 @@ def phi_histogram(tally: Tally) -> Floats:
 
 def fleet_fluctuation(tally: Tally, facts: Facts) -> Floats:
     """xi_raw of each fleet [m/s], (F,): fluctuation around the mean velocity of the whole swarm."""
-    result: Floats = tally.fluctuation.sum(axis=0) / tally.steps.sum() / np.array(facts.counts)
+    result: Floats = tally.fluctuation.sum(axis=0) / tally.steps.sum() / _fleet_agents(tally)
     return result
 
 
 def fleet_stationary(tally: Tally, facts: Facts) -> Floats:
     """Stationary share of each fleet, (F,)."""
     present = tally.present.sum()
-    result: Floats = tally.stationary.sum(axis=0) / (present if present > 0 else np.nan) / np.array(facts.counts)
+    result: Floats = tally.stationary.sum(axis=0) / (present if present > 0 else np.nan) / _fleet_agents(tally)
     return result
+
+
+def fleet_power(tally: Tally, facts: Facts) -> tuple[Floats, Floats]:
+    """Mean speed [m/s] and mean cube of the speed [m^3/s^3] of each fleet's agents, (F,)."""
+    steps = tally.agent_steps.sum(axis=0) * facts.time_step
+    begins = np.concatenate([[0], np.cumsum(facts.counts)[:-1]])
+    distance: Floats = np.add.reduceat(tally.distance.sum(axis=0), begins) / steps
+    cubes: Floats = np.add.reduceat(tally.cubes.sum(axis=0), begins) / steps
+    return distance, cubes

@@ -7,7 +7,16 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from shoal.metrics.summary import METRICS, Facts, evaluate, fleet_fluctuation, fleet_stationary, phi_histogram
+from shoal.metrics.summary import (
+    METRICS,
+    Facts,
+    evaluate,
+    fleet_fluctuation,
+    fleet_power,
+    fleet_stationary,
+    mean_max_speed,
+    phi_histogram,
+)
 from shoal.metrics.tally import Tally, batch_of
 from shoal.record.statistics import Estimate, estimate
 from shoal.record.trajectory import Trajectory
@@ -47,7 +56,7 @@ class Record:
         return np.mean([phi_histogram(tally) for tally in self.tallies], axis=0)  # type: ignore[no-any-return]
 
     def fleet_estimate(self, metric: str) -> dict[str, Estimate]:
-        """`xi_raw` [m/s], `xi` (over the swarm's mean top speed) or `stationary` of each fleet.
+        """`xi_raw` [m/s], `xi` (over the swarm's mean top speed), `stationary`, `speed` [m/s] or `power` of each fleet.
 
         Raises
         ------
@@ -55,7 +64,9 @@ class Record:
         """
         formulas: dict[str, Callable[[Tally], npt.NDArray[np.float64]]] = {
             "xi_raw": lambda tally: fleet_fluctuation(tally, self.facts),
-            "xi": lambda tally: fleet_fluctuation(tally, self.facts) / self.facts.mean_max_speed,
+            "xi": lambda tally: fleet_fluctuation(tally, self.facts) / mean_max_speed(tally, self.facts),
+            "speed": lambda tally: fleet_power(tally, self.facts)[0],
+            "power": lambda tally: fleet_power(tally, self.facts)[1],
             "stationary": lambda tally: fleet_stationary(tally, self.facts),
         }
         formula = formulas[metric]
@@ -75,7 +86,10 @@ class Record:
                     "count": self.facts.counts[f],
                     "max_speed": self.facts.max_speeds[f],
                     "phi_histogram": _numbers(histogram[f]),
-                    **{metric: _plain(self.fleet_estimate(metric)[name]) for metric in ("xi", "xi_raw", "stationary")},
+                    **{
+                        metric: _plain(self.fleet_estimate(metric)[name])
+                        for metric in ("xi", "xi_raw", "stationary", "speed", "power")
+                    },
                 }
                 for f, name in enumerate(self.facts.fleets)
             },

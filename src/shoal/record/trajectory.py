@@ -8,9 +8,9 @@ from typing import Any, BinaryIO
 import numpy as np
 import numpy.typing as npt
 
-from shoal.engine.rollout import Frames
+from shoal.engine.stage import Frames
 
-_PLAIN = ("step", "x", "y", "vx", "vy", "on_target", "target_x", "target_y", "target_present")
+_PLAIN = ("step", "x", "y", "vx", "vy", "on_target", "alive", "target_x", "target_y", "target_present")
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Trajectory:
     Attributes
     ----------
     step : (K,) number of the step
-    x, y : (K, N) [m]; vx, vy : (K, N) [m/s]; on_target : (K, N)
+    x, y : (K, N) [m]; vx, vy : (K, N) [m/s]; on_target, alive : (K, N)
     target_x, target_y : (K, T) [m]; target_present : (K, T)
     memory : {field: (K, N)} what agents remembered, in the units of the strategy's memory
     """
@@ -31,6 +31,7 @@ class Trajectory:
     vx: npt.NDArray[np.float64]
     vy: npt.NDArray[np.float64]
     on_target: npt.NDArray[np.bool_]
+    alive: npt.NDArray[np.bool_]
     target_x: npt.NDArray[np.float64]
     target_y: npt.NDArray[np.float64]
     target_present: npt.NDArray[np.bool_]
@@ -51,7 +52,7 @@ class Trajectory:
     def from_frames(cls, frames: Frames, fields: Iterable[str]) -> "Trajectory":
         """The frames that the engine filled; `fields` are the strategy's memory."""
         plain = {name: getattr(frames, name) for name in _PLAIN}
-        return cls(**plain, memory={name: np.ascontiguousarray(frames.memory[name]) for name in fields})
+        return cls(**plain, memory={name: np.ascontiguousarray(frames.memory[..., m]) for m, name in enumerate(fields)})
 
     @classmethod
     def join(cls, parts: list["Trajectory"]) -> "Trajectory":

@@ -22,6 +22,8 @@ class Frozen(BaseModel):
 Positive = Field(gt=0)
 NotNegative = Field(ge=0)
 Count = Annotated[int, Field(strict=True, gt=0)]  # strict: neither true nor "15" is a number
+Degree = Count | Literal["all"]
+Chance = Annotated[float, Field(strict=True, ge=0, le=1)]
 
 
 class Area(Frozen):
@@ -59,12 +61,67 @@ class Fleet(Frozen):
     start: Literal["uniform", "center", "corner"] = Field(
         default="uniform", description="where agents start: over the arena, or over a tenth of it"
     )
+    neighbors: Degree | None = Field(default=None, description="k of these agents; default: network.neighbors")
+    strategy: StrategyChoice | None = Field(default=None, description="of these agents; default: the scenario's")
+    detection_probability: Chance = Field(
+        default=1.0, description="chance per step that an agent notices a target within its reach"
+    )
+    false_alarm_probability: Chance = Field(
+        default=0.0, description="chance per step that an agent reports a target that is not there"
+    )
+    mean_lifetime: Annotated[Seconds, Positive] | None = Field(
+        default=None, description="agents fail at a constant rate, after this time on average [s]; default: never"
+    )
+    max_acceleration: Annotated[MetersPerSecond, Positive] | None = Field(
+        default=None, description="largest change of velocity per second [m/s per s]; default: any"
+    )
+    max_turn_rate: Annotated[Degrees, Positive] | None = Field(
+        default=None, description="largest turn per second [deg per s]; default: any"
+    )
+
+
+class AdaptiveDegree(Frozen):
+    """k follows the contact: fewest + (most - fewest) x share of recent time with somebody on target in hearing."""
+
+    fewest: Count = Field(default=10, description="k of an agent that never hears of a target")
+    most: Count = Field(default=25, description="k of an agent that always does")
+    patience: Annotated[Seconds, Positive] = Field(default=10.0, description="how long `recent` is [s]")
+
+    @model_validator(mode="after")
+    def _in_order(self) -> Self:
+        if self.fewest > self.most:
+            raise ValueError(f"fewest is {self.fewest}, more than most, {self.most}; swap them")
+        return self
+
+
+class Loss(Frozen):
+    """Agents that are lost at a step, chosen by lot."""
+
+    step: Count = Field(description="they are not there from this step on")
+    count: Count = Field(description="number of agents")
+    fleet: str | None = Field(default=None, description="of which fleet; default: of any")
+
+
+class Join(Frozen):
+    """Agents that join at a step."""
+
+    step: Count = Field(description="they are there from this step on")
+    count: Count = Field(description="number of agents")
+    fleet: str = Field(description="of which fleet they are")
 
 
 class Network(Frozen):
-    """Who hears whom."""
+    """Who hears whom, and what gets lost on the way."""
 
-    neighbors: Count = Field(description="k: every agent hears its k nearest others")
+    neighbors: Degree = Field(description='k: every agent hears its k nearest others, or "all"')
+    range: Annotated[Meters, Positive] | None = Field(
+        default=None, description="nobody is heard from farther away [m]; default: any distance"
+    )
+    loss: Chance = Field(default=0.0, description="chance that a neighbor's report of a step is not heard")
+    delay: Annotated[int, Field(strict=True, ge=0, le=1000)] = Field(
+        default=0, description="steps that a report takes; positions in it are as old"
+    )
+    adaptive: AdaptiveDegree | None = Field(default=None, description="k adapts in time; neighbors is where it starts")
 
 
 class Motion(Frozen):
@@ -138,11 +195,24 @@ class Scenario(Frozen):
     motion: Motion = Motion()
     strategy: StrategyChoice
     targets: tuple[Target, ...] = Field(min_length=1, description="one or more targets")
+    losses: tuple[Loss, ...] = Field(default=(), description="agents that are lost during the run")
+    joins: tuple[Join, ...] = Field(default=(), description="agents that join during the run")
+
+    @property
+    def counts(self) -> list[int]:
+        """Agents of each fleet, those who join later too."""
+        later = {name: sum(join.count for join in self.joins if join.fleet == name) for name in self.fleet_names}
+        return [fleet.count + later[fleet.name] for fleet in self.fleets]
+
+    @property
+    def fleet_names(self) -> list[str]:
+        """Names of the fleets, in order."""
+        return [fleet.name for fleet in self.fleets]
 
     @property
     def agents(self) -> int:
-        """N: number of agents of all fleets."""
-        return sum(fleet.count for fleet in self.fleets)
+        """N: number of agents of all fleets, those who join later too."""
+        return sum(self.counts)
 
     @property
     def unit(self) -> float:
@@ -167,16 +237,30 @@ class Scenario(Frozen):
 
     @model_validator(mode="after")
     def _can_hear_k_neighbors(self) -> Self:
-        if self.network.neighbors >= self.agents:
-            raise ValueError(
-                f"network.neighbors is {self.network.neighbors}, but {self.agents} agents can hear at most "
-                f"{self.agents - 1}; lower it or add agents under fleets"
-            )
+        degrees = {"network.neighbors": self.network.neighbors}
+        degrees |= {f"fleets.{number}.neighbors": fleet.neighbors or 1 for number, fleet in enumerate(self.fleets)}
+        if self.network.adaptive:
+            degrees["network.adaptive.most"] = self.network.adaptive.most
+        for name, degree in degrees.items():
+            if degree != "all" and degree >= self.agents:
+                raise ValueError(
+                    f"{name} is {degree}, but {self.agents} agents can hear at most "
+                    f'{self.agents - 1}; lower it, write "all" or add agents under fleets'
+                )
+        return self
+
+    @model_validator(mode="after")
+    def _changes_name_fleets(self) -> Self:
+        for kind, changes in (("losses", self.losses), ("joins", self.joins)):
+            for number, change in enumerate(changes):
+                if change.fleet is not None and change.fleet not in self.fleet_names:
+                    known = ", ".join(self.fleet_names)
+                    raise ValueError(f"{kind}.{number}.fleet is {change.fleet!r}, no fleet; there are: {known}")
         return self
 
     @model_validator(mode="after")
     def _fleets_have_names(self) -> Self:
-        names = [fleet.name for fleet in self.fleets]
+        names = self.fleet_names
         if len(set(names)) < len(names):
             raise ValueError(f"fleets.name: {', '.join(names)} are not all different; rename one")
         return self

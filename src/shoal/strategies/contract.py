@@ -29,14 +29,22 @@ class Strategy:
     name : what scenarios call it
     params : NamedTuple class of its parameters, with units in their annotations
     memory : unit of each remembered field, by name
+    told : the fields of memory that reports carry; they come first in memory
+    informed : whether it is told the truth about targets, which no buoy could know
+    hears_all : whether it is defined for all-to-all communication, whatever k is
     summary : first line of the docstring of `decide`
+    reference : where it was published
     source : file it was defined in
     """
 
     name: str
     params: type[Any]
     memory: dict[str, str]
+    told: tuple[str, ...]
+    informed: bool
+    hears_all: bool
     summary: str
+    reference: str
     source: str
     builtin: bool
     begin: Callable[..., Any]
@@ -57,6 +65,10 @@ def strategy(
     *,
     params: type[Any],
     memory: dict[str, str] | None = None,
+    tells: tuple[str, ...] = (),
+    informed: bool = False,
+    hears_all: bool = False,
+    reference: str = "",
     begin: Callable[..., Any] | None = None,
     leads: Callable[..., Any] | None = None,
     priority: Callable[..., Any] | None = None,
@@ -69,13 +81,18 @@ def strategy(
     name : how scenarios call it
     params : NamedTuple class; every field has a default and, if it has a unit, an annotation such as shoal.Meters
     memory : {field: unit}; each agent remembers one number per field, `memory.field` reads and writes it
+    tells : fields of the memory that go into every report, where neighbors read them as other.told.field
+    informed : give `begin` and `decide` the truth about the nearest target, me.truth: for references, not for buoys
+    hears_all : every agent hears every other, whatever network.neighbors says
+    reference : where it was published
     begin : sets up the memory before the first step (default: zeros)
     leads, priority : who is followed (default: the nearest neighbor on target)
     influence : what each neighbor adds to heard.sum_x, heard.sum_y (default: nothing)
 
     Raises
     ------
-    StrategyError : params are no NamedTuple, belong to another strategy, or one has no default
+    StrategyError : params are no NamedTuple, belong to another strategy, or one has no default; a field is told that
+        is not remembered
     """
 
     def register(decide: Callable[..., Any]) -> Callable[..., Any]:
@@ -96,14 +113,22 @@ def strategy(
             raise StrategyError(
                 where, problem, "write a NamedTuple class of its own: the class decides whose functions run"
             )
+        untold = [field for field in tells if field not in (memory or {})]
+        if untold:
+            raise StrategyError(where, f"tells {untold[0]!r}, which is not in memory", "add it to memory={...}")
+        remembered = dict(memory or {})
         compiled = kernel(decide)
         plain: Any = getattr(decide, "py_func", decide)
         _add(
             Strategy(
                 name=name,
                 params=params,
-                memory=dict(memory or {}),
+                memory={field: remembered[field] for field in (*tells, *remembered)},
+                told=tuple(tells),
+                informed=informed,
+                hears_all=hears_all,
                 summary=(plain.__doc__ or "").strip().split("\n")[0],
+                reference=reference,
                 source=plain.__code__.co_filename,
                 builtin=plain.__module__.startswith("shoal."),
                 begin=kernel(begin) if begin else _keep_zeros,
@@ -140,7 +165,7 @@ def _no_influence(me, other, params):
     return 0.0, 0.0
 
 
-# The engine calls these five names; which strategy answers is decided by the type of `params`. Passing functions as
+# The engine calls these names; which strategy answers is decided by the type of `params`. Passing functions as
 # arguments or closures would recompile the engine in every process; dispatching on a type is cached by numba.
 
 
@@ -167,6 +192,11 @@ def influence(me: Any, other: Any, params: Any) -> Any:
 def has_influence(params: Any) -> Any:
     """Whether the owner of params sums anything; a compile-time constant, so that nothing is summed in vain."""
     return _owner(type(params)).influence is not None
+
+
+def is_informed(params: Any) -> Any:
+    """Whether the owner of params is told the truth; a compile-time constant, too."""
+    return _owner(type(params)).informed
 
 
 def decide(me: Any, heard: Any, memory: Any, params: Any, draw: Any) -> Any:
@@ -203,6 +233,13 @@ def _has_influence(params):
     if _owner(params.instance_class).influence is None:
         return lambda params: False
     return lambda params: True
+
+
+@overload(is_informed, inline="always")
+def _is_informed(params):
+    if _owner(params.instance_class).informed:
+        return lambda params: True
+    return lambda params: False
 
 
 @overload(decide, inline="always")

@@ -10,6 +10,10 @@ class World(NamedTuple):
     half_x, half_y : half the sides of the arena, where agents start
     sequential : agents move one after the other, later ones seeing the moved ones
     divide : the paper's printed speed rule, v / vmax, instead of the cap
+    inertial : agents have limits of acceleration or turn rate
+    imperfect : sensors miss targets or report false ones
+    mortal : agents are lost or join during the run
+    target_radius : of the smallest target
     """
 
     agents: int
@@ -21,3 +25,7 @@ class World(NamedTuple):
     clamp_y: float
     sequential: bool
     divide: bool
+    inertial: bool
+    imperfect: bool
+    mortal: bool
+    target_radius: float

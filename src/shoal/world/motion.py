@@ -21,6 +21,28 @@ def limit_speed(command_x, command_y, max_speed, divide):
 
 
 @kernel
+def limit_maneuver(swarm, first, last, time_step):
+    """Limit how far the wanted velocity of agents first..last turns in a step, then how much it changes, in place."""
+    for i in range(first, last):
+        vx, vy = swarm.vx[i], swarm.vy[i]
+        wanted_x, wanted_y = swarm.command_x[i], swarm.command_y[i]
+        angle = math.atan2(vx * wanted_y - vy * wanted_x, vx * wanted_x + vy * wanted_y)
+        most = swarm.max_turn_rate[i] * time_step
+        if abs(angle) > most and vx * vx + vy * vy > 0.0:
+            heading = math.atan2(vy, vx) + (most if angle > 0.0 else -most)
+            speed = math.sqrt(wanted_x * wanted_x + wanted_y * wanted_y)
+            wanted_x = speed * math.cos(heading)
+            wanted_y = speed * math.sin(heading)
+        change_x = wanted_x - vx
+        change_y = wanted_y - vy
+        change = math.sqrt(change_x * change_x + change_y * change_y)
+        most = swarm.max_acceleration[i] * time_step
+        share = most / change if change > most else 1.0
+        swarm.command_x[i] = vx + share * change_x
+        swarm.command_y[i] = vy + share * change_y
+
+
+@kernel
 def move(position, velocity, command, clamp, time_step):
     """Advance one axis by a time-step and stop at the wall, where the velocity becomes the displacement really made."""
     for i in range(position.size):

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shoal.core.agents import aligned_zeros_kernel
+from shoal.core.agents import aligned_zeros
 from shoal.core.kernel import kernel
 
 ROUNDS = 40
@@ -19,12 +19,14 @@ _BELOW = 1.0 - 2.0**-52
 class Links(NamedTuple):
     """Squared distances [m^2] from speaker (row) to listener (lane), and each listener's reach; the rest is scratch.
 
-    Rows are padded to an even number with infinity; an agent is infinitely far from itself.
+    Rows are padded to an even number with infinity; an agent is infinitely far from itself. `wanted` is k of each
+    listener where not all pairs can be linked.
     """
 
     square: np.ndarray
     reach: np.ndarray
     heard: np.ndarray
+    wanted: np.ndarray
     below: np.ndarray
     above: np.ndarray
     low: np.ndarray
@@ -32,23 +34,23 @@ class Links(NamedTuple):
     off: np.ndarray
 
 
-@kernel
-def new_links(agents, lanes):
+def new_links(agents: int, lanes: int) -> Links:
     """Return links of `agents` speakers to `lanes` listeners."""
     rows = agents + agents % 2
-    square = aligned_zeros_kernel(rows * lanes).reshape((rows, lanes))
+    square = aligned_zeros(rows * lanes).reshape((rows, lanes))
     square[:] = np.inf
-    reach = aligned_zeros_kernel(lanes)
+    reach = aligned_zeros(lanes)
     reach[:] = 1.0
     heard = np.zeros(lanes, np.int64)
     return Links(
         square,
         reach,
         heard,
-        aligned_zeros_kernel(lanes),
-        aligned_zeros_kernel(lanes),
-        aligned_zeros_kernel(lanes),
-        aligned_zeros_kernel(lanes),
+        np.zeros(lanes, np.int64),
+        aligned_zeros(lanes),
+        aligned_zeros(lanes),
+        aligned_zeros(lanes),
+        aligned_zeros(lanes),
         np.zeros(lanes, np.int64),
     )
 

@@ -25,6 +25,8 @@ TARGET = np.dtype(
         ("y", np.float64),
         ("radius", np.float64),
         ("speed", np.float64),
+        ("watchers", np.int64),  # agents that detect it in this step
+        ("lost", np.int64),  # steps since somebody did; -1 before the first detection
         # waypoint
         ("heading_x", np.float64),
         ("heading_y", np.float64),
@@ -70,12 +72,23 @@ def begin_target(target, tracks, draw):
 
 
 @kernel
-def advance_target(target, tracks, time_step, steps_done, draw):
+def advance_target(target, tracks, swarm, world, steps_done, draw):
     """Move a target by one time-step; `steps_done` counts the steps completed with this one."""
+    time_step = world.time_step
     if target.kind == _WAYPOINT:
         _seek_waypoint(target, time_step, draw)
     elif target.kind == _TRACK:
         _follow_track(target, tracks, steps_done * time_step)
+
+
+@kernel
+def heading_to(target):
+    """Velocity of a target, and where it is heading to: its waypoint, or where it is."""
+    if target.kind == _WAYPOINT:
+        vx = target.speed * target.heading_x
+        vy = target.speed * target.heading_y
+        return vx, vy, target.waypoint_x, target.waypoint_y
+    return 0.0, 0.0, target.x, target.y
 
 
 @kernel

@@ -1,0 +1,50 @@
+"""What agent i knows of itself, as its strategy sees it."""
+
+from shoal.core.agents import Briefing, Own, Truth
+from shoal.core.kernel import kernel
+from shoal.strategies import contract
+from shoal.world.targets import heading_to
+
+
+@kernel
+def own(world, swarm, targets, params, number, i):
+    """Return Own of agent i at step `number`."""
+    briefing = Briefing(
+        world.agents,
+        world.clamp_x,
+        world.clamp_y,
+        swarm.sensor_radius[i] + world.target_radius,
+        swarm.share_end[i - 1] if i > 0 else 0.0,
+        swarm.share_end[i],
+    )
+    return Own(
+        i,
+        swarm.x[i],
+        swarm.y[i],
+        swarm.vx[i],
+        swarm.vy[i],
+        swarm.on_target[i],
+        swarm.max_speed[i],
+        world.time_step,
+        number * world.time_step,
+        swarm.fleet[i],
+        briefing,
+        _truth(swarm.x[i], swarm.y[i], targets, params),
+    )
+
+
+@kernel
+def _truth(x, y, targets, params):
+    """The nearest target that is there, for those who are told; nothing for the others."""
+    truth = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if contract.is_informed(params):
+        nearest = 1e300
+        for target in targets:
+            dx = target.x - x
+            dy = target.y - y
+            square = dx * dx + dy * dy
+            if target.present and square < nearest:
+                nearest = square
+                vx, vy, goal_x, goal_y = heading_to(target)
+                truth = Truth(True, target.x, target.y, vx, vy, goal_x, goal_y)
+    return truth

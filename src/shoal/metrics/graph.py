@@ -1,0 +1,55 @@
+"""The network as a graph: how many parts it falls into, and how tightly it is knit."""
+
+import numpy as np
+
+from shoal.core.kernel import kernel
+
+EVERY = 500  # steps between two looks at the graph
+
+
+@kernel
+def tally_graph(tally, batch, world, links, part, number):
+    """Count the weakly connected components, and the mean clustering of the agents (Watts and Strogatz 1998).
+
+    Clustering of i: of the pairs of agents that i hears, the share in which one hears the other. `part` is scratch.
+    """
+    if number % EVERY != 0:
+        return
+    agents = world.agents
+    square, reach = links.square, links.reach
+    for i in range(agents):
+        part[i] = i
+    for i in range(agents):
+        for j in range(agents):
+            if square[j, i] <= reach[i]:
+                _join(part, i, j)
+    components = 0
+    for i in range(agents):
+        components += part[i] == i
+    total = 0.0
+    ears = np.empty(agents, np.int64)
+    for i in range(agents):
+        heard = 0
+        for j in range(agents):
+            if square[j, i] <= reach[i]:
+                ears[heard] = j
+                heard += 1
+        knit = 0
+        for a in range(heard):
+            for b in range(a):
+                one, other = ears[a], ears[b]
+                knit += square[one, other] <= reach[other] or square[other, one] <= reach[one]
+        total += 2.0 * knit / (heard * (heard - 1)) if heard > 1 else 0.0
+    tally.graphs[batch] += 1.0
+    tally.components[batch] += components
+    tally.clustering[batch] += total / agents
+
+
+@kernel
+def _join(part, one, other):
+    """Unite the parts of two agents under the lower root."""
+    while part[one] != one:
+        one = part[one]
+    while part[other] != other:
+        other = part[other]
+    part[max(one, other)] = min(one, other)

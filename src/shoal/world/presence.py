@@ -1,0 +1,50 @@
+"""Who is there: agents that are lost or join during a run."""
+
+import math
+
+from shoal.core.draws import START_STEP, split, uniform
+from shoal.core.kernel import kernel
+
+_WEAR = 1 << 22  # purposes that no strategy draws for
+_LOT = _WEAR + 1
+
+
+@kernel
+def draw_lifetimes(swarm, world, lifetimes, run_key):
+    """Let agents of fleets with a mean lifetime [s] fail at constant rate; exponential, by inversion."""
+    for i in range(world.agents):
+        mean = lifetimes[swarm.fleet[i]]
+        if mean > 0.0:
+            chance = uniform(split(split(run_key, START_STEP), i), _WEAR)
+            steps = -mean * math.log(1.0 - chance) / world.time_step
+            swarm.leaves[i] = swarm.joins[i] + 1 + int(min(steps, 1e15))
+
+
+@kernel
+def draw_losses(swarm, world, number, fleet, count, run_key):
+    """Let `count` agents of a fleet (of all for -1) leave at step `number`: those with the lowest lots who are there."""
+    for _ in range(count):
+        chosen = -1
+        lowest = 2.0
+        for i in range(world.agents):
+            lot = uniform(split(split(run_key, START_STEP), i), _LOT + number)
+            there = swarm.joins[i] <= number < swarm.leaves[i]
+            if there and (fleet == -1 or swarm.fleet[i] == fleet) and lot < lowest:
+                chosen = i
+                lowest = lot
+        if chosen >= 0:
+            swarm.leaves[chosen] = number
+
+
+@kernel
+def update_presence(swarm, world, number):
+    """Set who is alive at a step and return how many; who is not lies still."""
+    active = 0
+    for i in range(world.agents):
+        there = swarm.joins[i] <= number < swarm.leaves[i]
+        swarm.alive[i] = 1.0 if there else 0.0
+        active += there
+        if not there:
+            swarm.vx[i] = 0.0
+            swarm.vy[i] = 0.0
+    return active

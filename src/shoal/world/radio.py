@@ -1,0 +1,147 @@
+"""What the radio does to messages: range, loss, delay, and how many neighbors an agent listens to."""
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.core.agents import Floats, width
+from shoal.core.draws import split, uniform
+from shoal.core.kernel import kernel
+
+_LOSS = 1 << 32  # a stream of keys that agents do not draw from
+
+
+class Radio(NamedTuple):
+    """Settings of the network, and what was said in the last steps (D rows of L lanes, step s in row s % D).
+
+    limited : whether any pair may be out of touch; range_square [m^2]
+    delay : steps that a report takes; loss : chance that a linked pair misses a step's report
+    adaptive : k follows the contact, from fewest to most, with memory `patience` [s]
+    """
+
+    limited: bool
+    range_square: float
+    delay: int
+    loss: float
+    adaptive: bool
+    fewest: int
+    most: int
+    patience: float
+    x: Floats
+    y: Floats
+    vx: Floats
+    vy: Floats
+    on_target: npt.NDArray[np.bool_]
+    told: Floats
+
+
+class Said(NamedTuple):
+    """The reports that arrive in a step, (L,), but for what is told of memories."""
+
+    x: Floats
+    y: Floats
+    vx: Floats
+    vy: Floats
+    on_target: npt.NDArray[np.bool_]
+
+
+def new_radio(
+    lanes: int,
+    told: tuple[str, ...],
+    *,
+    limited: bool,
+    reach: float,
+    delay: int,
+    loss: float,
+    degree: tuple[int, int, float] | None,
+) -> Radio:
+    """Return a radio that has heard nothing yet."""
+    rows = delay + 1
+    fewest, most, patience = degree or (0, 0, 0.0)
+    return Radio(
+        limited=limited,
+        range_square=reach * reach,
+        delay=delay,
+        loss=loss,
+        adaptive=degree is not None,
+        fewest=fewest,
+        most=most,
+        patience=patience,
+        x=np.zeros((rows, lanes)),
+        y=np.zeros((rows, lanes)),
+        vx=np.zeros((rows, lanes)),
+        vy=np.zeros((rows, lanes)),
+        on_target=np.zeros((rows, lanes), np.bool_),
+        told=np.zeros((rows, lanes, width(told))),
+    )
+
+
+@kernel
+def send(radio, swarm, number):
+    """Keep what is said at a step until it arrives."""
+    rows = radio.delay + 1
+    now = number % rows
+    for i in range(swarm.x.size):
+        radio.x[now, i] = swarm.x[i]
+        radio.y[now, i] = swarm.y[i]
+        radio.vx[now, i] = swarm.vx[i]
+        radio.vy[now, i] = swarm.vy[i]
+        radio.on_target[now, i] = swarm.on_target[i]
+        for field in range(swarm.told.shape[1]):
+            radio.told[now, i, field] = swarm.told[i, field]
+
+
+@kernel
+def said(radio, swarm, number):
+    """What arrives at a step.
+
+    Without delay that is the swarm itself: in the sequential order, later agents hear what earlier ones just did.
+    """
+    if radio.delay == 0:
+        return Said(swarm.x, swarm.y, swarm.vx, swarm.vy, swarm.on_target)
+    old = (number + 1) % (radio.delay + 1)
+    return Said(radio.x[old], radio.y[old], radio.vx[old], radio.vy[old], radio.on_target[old])
+
+
+@kernel
+def limit_links(links, swarm, radio, first, agents, number):
+    """Unlink who is out of range, not there, or has said nothing yet; links.wanted becomes k, or all that are left."""
+    square, wanted = links.square, links.wanted
+    lanes = wanted.size
+    for i in range(lanes):
+        wanted[i] = 0
+    for j in range(agents):
+        silent = number < radio.delay + swarm.joins[j] or number - radio.delay >= swarm.leaves[j]
+        limit = -1.0 if silent else radio.range_square
+        for i in range(lanes):
+            linked = square[j, i] <= limit and square[j, i] < np.inf
+            square[j, i] = square[j, i] if linked else np.inf
+            wanted[i] += 1 if linked else 0
+    for i in range(lanes):
+        wanted[i] = min(wanted[i], swarm.neighbors[first + i])
+
+
+@kernel
+def lose_reports(links, radio, step_key, first, agents):
+    """Unlink every pair whose report is lost in this step."""
+    square = links.square
+    for j in range(agents):
+        key = split(step_key, _LOSS + j)
+        for i in range(square.shape[1]):
+            square[j, i] = np.inf if uniform(key, first + i) < radio.loss else square[j, i]
+
+
+@kernel
+def adapt_degree(swarm, radio, leader, first, last, time_step):
+    """Let k follow the contact: k = fewest + (most - fewest) x share of recent steps with a neighbor on target.
+
+    A fast target breaks contact more often, and the best k falls as the target speeds up (Kwa, Leong Kit, Bouffanais,
+    AAMAS 2020, Fig. 4): the rule needs no knowledge of the speed.
+    """
+    weight = min(1.0, time_step / radio.patience)
+    for i in range(first, last):
+        hears = swarm.on_target[i] or leader[i - first] >= 0
+        swarm.contact[i] += weight * ((1.0 if hears else 0.0) - swarm.contact[i])
+        degree = radio.fewest + (radio.most - radio.fewest) * swarm.contact[i]
+        swarm.neighbors[i] = int(degree + 0.5)
