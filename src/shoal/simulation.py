@@ -30,6 +30,7 @@ from shoal.world.placement import PLACES
 from shoal.world.radio import Radio, new_radio
 from shoal.world.targets import KINDS, TARGET, Tracks
 
+_set_out: Any = set_out  # kernels have no types that mypy sees
 BATCHES = 20  # of one run, for batch means
 
 
@@ -82,7 +83,7 @@ class Simulation:
         lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
         here, held = put(self._stage(self._new_frames(0)))
         self._phases = Addresses._make(phase.address() for phase in PHASES)
-        set_out(here, places, lifetimes, _losses(scenario), self._seed, run)
+        _set_out(here, places, lifetimes, _losses(scenario), self._seed, run)
         with _compiling(strategy):
             self._begin(here, self.minds, self.params, self._seed, run)
         del held

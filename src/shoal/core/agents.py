@@ -85,7 +85,7 @@ REPORT_BYTES = 4 + 4 * 8 + 1  # id, position and velocity, on target; each field
 class Heard(NamedTuple):
     """What an agent made of its neighbors' reports: one leader and one sum.
 
-    `found` is whether any neighbor may lead; x, y, vx, vy, on_target and told are the leader's (the agent's own if none).
+    `found` is whether any neighbor may lead; x, y, vx, vy, on_target, told are the leader's (the agent's own if none).
     `sum_x`, `sum_y` are the sums of the strategy's influence over all neighbors; `neighbors` is how many were heard.
     """
 

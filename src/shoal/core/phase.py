@@ -6,7 +6,7 @@ everything that it works on. That takes most of the compiling off every strategy
 
     @phase
     def advance(here, number, other, key):
-        world, swarm = at(here)
+        swarm = part(here, SWARM)     the field of the stage that has this index
 
     here, held = put(stage); PHASE.address()     in Python; the stage is there while `held` lives
     enter(address, here, number, other, key)     in a kernel
@@ -17,10 +17,9 @@ All stages of a process have one type: what differs between strategies is no par
 from collections.abc import Callable
 from typing import Any
 
-import numba
 import numpy as np
 from llvmlite import ir
-from numba import types
+from numba import cfunc, typeof, types
 from numba.core import cgutils
 from numba.extending import intrinsic, overload
 
@@ -44,7 +43,7 @@ class Phase:
         if self._compiled is None:
             signature = types.int64(types.int64, types.int64, types.int64, types.uint64)
             with kernel_cache():
-                self._compiled = numba.cfunc(signature, cache=True, **FLAGS)(self.function)
+                self._compiled = cfunc(signature, cache=True, **FLAGS)(self.function)
         return self._compiled.address
 
 
@@ -58,16 +57,16 @@ def put(stage: Any) -> tuple[Any, Any]:
     if not compiles():
         return stage, stage
     if not _STAGE:
-        _STAGE.append(numba.typeof(stage))
+        _STAGE.append(typeof(stage))
     room = np.empty(_ROOM, np.uint8)
     if _put(stage, room) > _ROOM:
         raise AssertionError("the stage needs more room")
     return room.ctypes.data, (room, stage)
 
 
-def at(here: Any) -> Any:
-    """The stage at an address, in kernels."""
-    return here
+def part(here: Any, field: int) -> Any:
+    """One field of the stage, by its index, in kernels."""
+    return here[field]
 
 
 def enter(address: Any, here: Any, number: int, other: int, key: Any) -> Any:
@@ -76,13 +75,17 @@ def enter(address: Any, here: Any, number: int, other: int, key: Any) -> Any:
 
 
 @entry_kernel
-def _put(stage, room):  # type: ignore[no-untyped-def]
+def _put(stage, room):
     return _store(stage, room.ctypes.data)
 
 
-@intrinsic
-def _store(context, stage, here):  # type: ignore[no-untyped-def]
-    def build(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+_as_kernel: Any = intrinsic
+_as_literal_kernel: Any = intrinsic(prefer_literal=True)
+
+
+@_as_kernel
+def _store(context, stage, here):
+    def build(context, builder, signature, arguments):
         kind = context.get_data_type(stage)
         context.pack_value(builder, stage, arguments[0], builder.inttoptr(arguments[1], kind.as_pointer()))
         return ir.Constant(ir.IntType(64), context.get_abi_sizeof(kind))
@@ -90,33 +93,36 @@ def _store(context, stage, here):  # type: ignore[no-untyped-def]
     return types.int64(stage, types.intp), build
 
 
-@intrinsic
-def _load(context, here):  # type: ignore[no-untyped-def]
-    stage = _STAGE[0]
+@_as_literal_kernel
+def _load(context, here, field):
+    place, stage = field.literal_value, _STAGE[0]
 
-    def build(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+    def build(context, builder, signature, arguments):
         pointer = builder.inttoptr(arguments[0], context.get_data_type(stage).as_pointer())
-        return _unowned(context, builder, stage, context.unpack_value(builder, stage, pointer))
+        return _unowned(context, builder, stage[place], cgutils.gep_inbounds(builder, pointer, 0, place))
 
-    return stage(types.int64), build
+    return stage[place](types.int64, field), build
 
 
-def _unowned(context: Any, builder: Any, kind: Any, value: Any) -> Any:
-    """The same value with arrays that nobody counts references to: counting costs more than a step."""
+def _unowned(context, builder, kind, pointer):
+    """The value at a pointer, with arrays that nobody counts references to: counting costs more than a step."""
+    if isinstance(kind, types.BaseTuple):  # a NamedTuple, too
+        parts = [
+            _unowned(context, builder, each, cgutils.gep_inbounds(builder, pointer, 0, place))
+            for place, each in enumerate(kind)
+        ]
+        return context.make_tuple(builder, kind, parts)
+    value = context.unpack_value(builder, kind, pointer)
     if isinstance(kind, types.Array):
         array = context.make_array(kind)(context, builder, value)
         array.meminfo = cgutils.get_null_value(array.meminfo.type)
         return array._getvalue()
-    if isinstance(kind, types.BaseTuple):
-        for place, part in enumerate(kind.types):
-            whole = _unowned(context, builder, part, builder.extract_value(value, place))
-            value = builder.insert_value(value, whole, place)
     return value
 
 
-@intrinsic
-def _enter(context, address, here, number, other, key):  # type: ignore[no-untyped-def]
-    def build(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+@_as_kernel
+def _enter(context, address, here, number, other, key):
+    def build(context, builder, signature, arguments):
         word = ir.IntType(64)
         kind = ir.FunctionType(word, [word] * 4)
         return builder.call(builder.inttoptr(arguments[0], kind.as_pointer()), arguments[1:])
@@ -124,11 +130,11 @@ def _enter(context, address, here, number, other, key):  # type: ignore[no-untyp
     return types.int64(types.int64, types.int64, types.int64, types.int64, types.uint64), build
 
 
-@overload(at, inline="always")
-def _at_kernel(here):  # type: ignore[no-untyped-def]
-    return lambda here: _load(here)
+@overload(part, inline="always", prefer_literal=True)
+def _part_kernel(here, field):
+    return lambda here, field: _load(here, field)
 
 
 @overload(enter, inline="always")
-def _enter_kernel(address, here, number, other, key):  # type: ignore[no-untyped-def]
+def _enter_kernel(address, here, number, other, key):
     return lambda address, here, number, other, key: _enter(address, here, number, other, key)

@@ -6,9 +6,10 @@ Every phase takes where the stage is, two integers and a key, and returns an int
 from typing import Any, NamedTuple
 
 from shoal.core.draws import TARGET_STREAM, split
-from shoal.core.phase import at, phase
+from shoal.core.phase import part, phase
 from shoal.engine.frames import keep_frame
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
+from shoal.engine.stage import FRAMES, RADIO, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD
 from shoal.world.motion import limit_maneuver, limit_speed, move
 from shoal.world.neighbors import link_nearest, measure_distances, settle_ties
 from shoal.world.presence import update_presence
@@ -31,7 +32,10 @@ class Addresses(NamedTuple):
 @phase
 def look(here, number, frame, step_key):
     """Keep the state at the start of a step as a frame."""
-    world, swarm, _, targets, _, _, _, frames = at(here)
+    world = part(here, WORLD)
+    swarm = part(here, SWARM)
+    targets = part(here, TARGETS)
+    frames = part(here, FRAMES)
     sense(swarm, targets, world, step_key)
     keep_frame(frames, frame, number, world, swarm, targets)
     return 0
@@ -40,7 +44,12 @@ def look(here, number, frame, step_key):
 @phase
 def perceive(here, number, batch, step_key):
     """Who is there, who is on target, and what is said."""
-    world, swarm, radio, targets, _, tally, scratch, _ = at(here)
+    world = part(here, WORLD)
+    swarm = part(here, SWARM)
+    radio = part(here, RADIO)
+    targets = part(here, TARGETS)
+    tally = part(here, TALLY)
+    scratch = part(here, SCRATCH)
     active = update_presence(swarm, world, number) if world.mortal else world.agents
     engaged = sense(swarm, targets, world, step_key)
     measure_before_move(tally, batch, world, swarm, targets, engaged, active, number, scratch)
@@ -52,7 +61,10 @@ def perceive(here, number, batch, step_key):
 @phase
 def link(here, number, first, step_key):
     """Find out whom the agents from `first` on hear."""
-    world, swarm, radio, _, _, _, scratch, _ = at(here)
+    world = part(here, WORLD)
+    swarm = part(here, SWARM)
+    radio = part(here, RADIO)
+    scratch = part(here, SCRATCH)
     links = scratch.links
     last = first + links.reach.size
     reports = said(radio, swarm, number)
@@ -68,7 +80,10 @@ def link(here, number, first, step_key):
 @phase
 def settle(here, number, first, step_key):
     """Settle ties and lose reports; returns 1 if links changed after their influence was summed."""
-    world, swarm, radio, _, _, _, scratch, _ = at(here)
+    world = part(here, WORLD)
+    swarm = part(here, SWARM)
+    radio = part(here, RADIO)
+    scratch = part(here, SCRATCH)
     links = scratch.links
     if radio.limited:
         changed = settle_ties(links, links.wanted, world.agents)
@@ -83,7 +98,11 @@ def settle(here, number, first, step_key):
 @phase
 def go(here, number, batch_first, step_key):
     """Move the agents from `first` on as their commands say, within their limits."""
-    world, swarm, radio, _, _, tally, scratch, _ = at(here)
+    world = part(here, WORLD)
+    swarm = part(here, SWARM)
+    radio = part(here, RADIO)
+    tally = part(here, TALLY)
+    scratch = part(here, SCRATCH)
     first = batch_first & 0xFFFFFFFF
     batch = batch_first >> 32
     last = first + scratch.leader.size
@@ -103,7 +122,12 @@ def go(here, number, batch_first, step_key):
 @phase
 def conclude(here, number, batch, step_key):
     """Measure where agents head; targets move."""
-    world, swarm, _, targets, tracks, tally, scratch, _ = at(here)
+    world = part(here, WORLD)
+    swarm = part(here, SWARM)
+    targets = part(here, TARGETS)
+    tracks = part(here, TRACKS)
+    tally = part(here, TALLY)
+    scratch = part(here, SCRATCH)
     measure_after_move(tally, batch, world, swarm, targets, scratch)
     for j in range(targets.size):
         advance_target(targets[j], tracks, swarm, world, number + 1, split(step_key, TARGET_STREAM + j))

@@ -2,8 +2,9 @@
 
 from shoal.core.draws import START_STEP, TARGET_STREAM, split
 from shoal.core.kernel import entry_kernel
-from shoal.core.phase import at, enter
+from shoal.core.phase import enter, part
 from shoal.engine.self import own
+from shoal.engine.stage import FRAMES, RADIO, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD
 from shoal.engine.step import step, tell
 from shoal.strategies import contract
 from shoal.world.placement import place
@@ -18,7 +19,10 @@ def set_out(here, places, lifetimes, losses, seed, run):
     places, lifetimes : (F,) index into PLACES and mean lifetime [s] of each fleet, 0 for ever
     losses : (C, 3) step, fleet (-1: any) and number of agents of each loss
     """
-    world, swarm, _, targets, tracks, _, _, _ = at(here)
+    world = part(here, WORLD)
+    swarm = part(here, SWARM)
+    targets = part(here, TARGETS)
+    tracks = part(here, TRACKS)
     run_key = split(split(seed, 0), run)
     start_key = split(run_key, START_STEP)
     place(swarm, world, places, run_key)
@@ -32,7 +36,9 @@ def set_out(here, places, lifetimes, losses, seed, run):
 @entry_kernel
 def begin_run(here, minds, params, seed, run):
     """Set up every agent's memory."""
-    world, swarm, _, targets, _, _, _, _ = at(here)
+    world = part(here, WORLD)
+    swarm = part(here, SWARM)
+    targets = part(here, TARGETS)
     start_key = split(split(split(seed, 0), run), START_STEP)
     for i in range(world.agents):
         me = own(world, swarm, targets, params, 0, i)
@@ -48,7 +54,13 @@ def rollout(here, minds, params, phases, seed, run, first, last, steps, every, t
     no bit: what must survive a call is in the stage.
     """
     run_key = split(split(seed, 0), run)
-    world, swarm, radio, targets, _, tally, scratch, frames = at(here)
+    world = part(here, WORLD)
+    swarm = part(here, SWARM)
+    radio = part(here, RADIO)
+    targets = part(here, TARGETS)
+    tally = part(here, TALLY)
+    scratch = part(here, SCRATCH)
+    frames = part(here, FRAMES)
     batches = tally.steps.size
     room = frames.step.size
     frame = 0

@@ -26,7 +26,8 @@ class Scratch(NamedTuple):
 class Frames(NamedTuple):
     """Room for K frames of a trajectory, each the state at the start of a step. N agents, T targets, M memory fields.
 
-    step : (K,); x, y, vx, vy, on_target, alive : (K, N); memory : (K, N, M); target_x, target_y, target_present : (K, T)
+    step : (K,); x, y, vx, vy, on_target, alive : (K, N); memory : (K, N, M)
+    target_x, target_y, target_present : (K, T)
     """
 
     step: npt.NDArray[np.int64]
@@ -40,6 +41,9 @@ class Frames(NamedTuple):
     target_x: Floats
     target_y: Floats
     target_present: npt.NDArray[np.bool_]
+
+
+WORLD, SWARM, RADIO, TARGETS, TRACKS, TALLY, SCRATCH, FRAMES = range(8)  # the fields of a stage, for kernels
 
 
 class Stage(NamedTuple):

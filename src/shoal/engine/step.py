@@ -40,9 +40,10 @@ def listen(here, world, swarm, scratch, reports, told, params, phases, step_key,
         swarm.fleet[first:last],
     )
     clock = (world.time_step, number * world.time_step)
-    sum_influence(reports, told, block, links, params, first, world.agents, clock, scratch.b, scratch.c)
-    if enter(phases.settle, here, number, first, step_key):
+    for turn in range(2):  # the second where ties or losses changed who is heard; written once, compiled once
         sum_influence(reports, told, block, links, params, first, world.agents, clock, scratch.b, scratch.c)
+        if turn == 1 or enter(phases.settle, here, number, first, step_key) == 0:
+            break
     choose_leaders(reports, told, block, links, params, first, world.agents, clock, leader, scratch.a)
 
 

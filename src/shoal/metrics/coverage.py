@@ -24,8 +24,8 @@ def tally_coverage(tally, batch, world, swarm, number):
     high = CELLS / (2.0 * world.half_y)
     for i in range(world.agents):
         if swarm.alive[i] > 0.0:
-            column = int(math.floor((swarm.x[i] + world.half_x) * wide))
-            row = int(math.floor((swarm.y[i] + world.half_y) * high))
+            column = math.floor((swarm.x[i] + world.half_x) * wide)
+            row = math.floor((swarm.y[i] + world.half_y) * high)
             seen[0, min(max(row, 0), CELLS - 1) * CELLS + min(max(column, 0), CELLS - 1)] = window
     into = number % WINDOW
     if into == _FIRST - _EVERY or into == WINDOW - _EVERY:

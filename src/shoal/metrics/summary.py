@@ -25,6 +25,11 @@ class Facts(NamedTuple):
     area: float = float("nan")
     report_bytes: int = REPORT_BYTES
 
+    @property
+    def agents(self) -> int:
+        """All agents that are ever there."""
+        return sum(self.counts)
+
 
 class Metric(NamedTuple):
     """A number per run: its unit, one sentence, and its formula over a tally whose batches are summed (B = 1)."""

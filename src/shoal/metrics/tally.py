@@ -18,14 +18,14 @@ class Tally(NamedTuple):
 
     F fleets, N agents, T targets; a column per metric file.
 
-    batch_steps, steps, present, on_target, engaged : (B,) steps planned; done; with a target there; with an agent on it;
-        agents on target
+    batch_steps, steps, present, on_target, engaged : (B,) steps planned; done; with a target there; with an agent
+        on it; agents on target
     fluctuation : (B, F) [m/s] sum over steps and agents of |v_i - mean v|
     histogram : (B, F, 11) agents per bin of phi over steps with a target there
     stationary : (B, F) agents slower than a tenth of their top speed, over the same steps
     agent_steps : (B, F) sum over steps of the agents alive
     target_steps, watched : (B, T) steps at which each target is there; and somebody watches it
-    undetected, losses, ended, ended_steps : (B, T) steps before the first detection; losses begun and ended, their steps
+    undetected, losses, ended, ended_steps : (B, T) steps before the first detection; losses begun, ended, their steps
     loss_lengths : (B, 32) ended losses by length, see contacts.py
     timeline_present, timeline_on_target : (B, 50) steps with a target there, and watched, in windows of a batch
     heard : (B,) reports received

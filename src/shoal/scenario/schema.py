@@ -251,11 +251,11 @@ class Scenario(Frozen):
 
     @model_validator(mode="after")
     def _changes_name_fleets(self) -> Self:
-        for kind, changes in (("losses", self.losses), ("joins", self.joins)):
-            for number, change in enumerate(changes):
-                if change.fleet is not None and change.fleet not in self.fleet_names:
-                    known = ", ".join(self.fleet_names)
-                    raise ValueError(f"{kind}.{number}.fleet is {change.fleet!r}, no fleet; there are: {known}")
+        named = {f"losses.{number}": loss.fleet for number, loss in enumerate(self.losses)}
+        named |= {f"joins.{number}": join.fleet for number, join in enumerate(self.joins)}
+        for name, fleet in named.items():
+            if fleet is not None and fleet not in self.fleet_names:
+                raise ValueError(f"{name}.fleet is {fleet!r}, no fleet; there are: {', '.join(self.fleet_names)}")
         return self
 
     @model_validator(mode="after")

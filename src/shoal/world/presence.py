@@ -22,7 +22,7 @@ def draw_lifetimes(swarm, world, lifetimes, run_key):
 
 @kernel
 def draw_losses(swarm, world, number, fleet, count, run_key):
-    """Let `count` agents of a fleet (of all for -1) leave at step `number`: those with the lowest lots who are there."""
+    """Let `count` agents of a fleet (of all for -1) leave at step `number`: those there with the lowest lots."""
     for _ in range(count):
         chosen = -1
         lowest = 2.0
