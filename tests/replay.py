@@ -90,7 +90,7 @@ def state_of(simulation):
     return oracle.State(
         x=np.stack([swarm.x[:n], swarm.y[:n]], axis=1),
         v=np.stack([swarm.vx[:n], swarm.vy[:n]], axis=1) * simulation.scenario.time_step,
-        a=np.array(swarm.memory["repulsion"][:n]),
+        a=np.array(simulation.minds.memory["repulsion"][:n]),
         target=np.array([target["x"], target["y"]]),
         heading=np.array([target["heading_x"], target["heading_y"]]),
         waypoint=np.array([target["waypoint_x"], target["waypoint_y"]]),
@@ -103,7 +103,7 @@ def put_state(simulation, state):
     n, swarm, target = simulation.scenario.agents, simulation.swarm, simulation.targets[0]
     swarm.x[:n], swarm.y[:n] = state.x.T
     swarm.vx[:n], swarm.vy[:n] = state.v.T / simulation.scenario.time_step
-    swarm.memory["repulsion"][:n] = state.a
+    simulation.minds.memory["repulsion"][:n] = state.a
     target["x"], target["y"] = state.target
     target["heading_x"], target["heading_y"] = state.heading
     target["waypoint_x"], target["waypoint_y"] = state.waypoint

@@ -127,7 +127,14 @@ class TestStore:
             sweep(DESIGN, tmp_path, changes=SHORT)
 
     def test_a_second_writer_is_kept_out_with_a_clear_message(self, tmp_path):
-        identity = {"scenario": {}, "fields": [], "changes": {}, "independent": False, "results_version": 1}
+        identity = {
+            "scenario": {},
+            "fields": [],
+            "changes": {},
+            "independent": False,
+            "results_version": 1,
+            "metrics": [],
+        }
         with Store(tmp_path, identity):
             with pytest.raises(RecordError, match=f"is being written by process {os.getpid()}"):
                 Store(tmp_path, identity).__enter__()

@@ -9,6 +9,7 @@ from shoal.metrics.summary import (
     evaluate,
     fleet_fluctuation,
     fleet_stationary,
+    mean_max_speed,
     phi_histogram,
 )
 from shoal.metrics.tally import batch_of, new_tally
@@ -19,8 +20,9 @@ FACTS = Facts(fleets=("fast", "slow"), counts=(10, 30), max_speeds=(2.0, 1.0), u
 @pytest.fixture
 def tally():
     """Two batches of 100 steps; the target is there in 160 of 200."""
-    tally = new_tally(2, 2)
+    tally = new_tally(steps=200, batches=2, fleets=2, agents=40, targets=1)
     tally.steps[:] = 100
+    tally.agent_steps[:] = 1000, 3000
     tally.present[:] = 100, 60
     tally.on_target[:] = 80, 10
     tally.engaged[:] = 160, 40
@@ -94,6 +96,6 @@ class TestByFleet:
 class TestFacts:
     """Scales."""
 
-    def test_the_mean_top_speed_is_of_agents_not_of_fleets(self):
-        assert FACTS.mean_max_speed == pytest.approx((10 * 2.0 + 30 * 1.0) / 40)
+    def test_the_mean_top_speed_is_of_agents_not_of_fleets(self, tally):
+        assert mean_max_speed(tally, FACTS) == pytest.approx((10 * 2.0 + 30 * 1.0) / 40)
         assert FACTS.agents == 40

@@ -74,7 +74,7 @@ class TestMetrics:
     @pytest.mark.parametrize("name", METRICS)
     def test_a_metric_has_a_value_per_run_a_unit_and_a_sentence(self, record, dataset, name):
         assert dataset[name].dims == ("run",)
-        assert dataset[name].values.tolist() == list(record.estimate(name).runs)
+        np.testing.assert_array_equal(dataset[name].values, record.estimate(name).runs)
         assert dataset[name].attrs["units"]
         assert dataset[name].attrs["long_name"] == METRICS[name].sentence
 

@@ -28,7 +28,7 @@ class TestEstimates:
     def test_of_several_runs(self, record, metric):
         result = record.estimate(metric)
         assert len(result.runs) == 4
-        assert result == estimate(result.runs)
+        assert repr(result) == repr(estimate(result.runs))  # a number that does not exist is no equal of itself
 
     def test_of_one_run_have_an_interval_too(self, one_run):
         low, high = one_run.estimate("xi").ci95

@@ -203,7 +203,7 @@ BAD = {  # what is written instead of what, the field, words of the problem and 
         "neighbors = 50",
         "network.neighbors",
         "hear at most 49",
-        "lower it or add agents",
+        "or add agents under fleets",
     ),
     "margins that meet": (
         "agent_margin = 1.5",

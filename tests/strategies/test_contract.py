@@ -153,7 +153,7 @@ class TestRunning:
 
         slower = Simulation(using(tmp_path / "my_strategy.py", turn_chance=0.0))
         slower.advance(STEPS)
-        assert not slower.swarm.memory["turns"].any()
+        assert not slower.minds.memory["turns"].any()
 
         after = Simulation(scenario())
         after.advance(50)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from shoal.metrics.summary import Facts
-from shoal.metrics.tally import BINS, Tally
+from shoal.metrics.tally import BINS, new_tally
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 
@@ -19,12 +19,16 @@ def tally(counts, *, on_target=0.5, present=1.0, batches=BATCHES):
     histogram = np.zeros((batches, len(counts), BINS), np.int64)
     for fleet, count in enumerate(counts):
         histogram[:, fleet, fleet] = count * length * present
-    ones = np.ones(batches) * length
-    seen = ones * present
-    return Tally(
-        ones, seen, seen * on_target, seen * on_target * 2, np.ones((batches, len(counts))), histogram,
-        np.zeros((batches, len(counts)), np.int64),
-    )  # fmt: skip
+    empty = new_tally(STEPS, batches, len(counts), sum(counts), 1)
+    return empty._replace(
+        steps=empty.batch_steps,
+        present=empty.batch_steps * present,
+        on_target=empty.batch_steps * present * on_target,
+        engaged=empty.batch_steps * present * on_target * 2,
+        fluctuation=np.ones((batches, len(counts))),
+        histogram=histogram,
+        agent_steps=np.outer(empty.batch_steps, counts),
+    )
 
 
 def trajectory(agents, targets=1, frames=STEPS):
@@ -34,7 +38,8 @@ def trajectory(agents, targets=1, frames=STEPS):
     target_y = np.repeat(np.linspace(-5, 5, frames)[:, None], targets, axis=1)
     return Trajectory(
         step=np.arange(frames), x=x, y=np.zeros(shape), vx=np.zeros(shape), vy=np.zeros(shape),
-        on_target=np.zeros(shape, bool), target_x=np.zeros((frames, targets)), target_y=target_y,
+        on_target=np.zeros(shape, bool), alive=np.ones(shape, bool),
+        target_x=np.zeros((frames, targets)), target_y=target_y,
         target_present=np.ones((frames, targets), bool), memory={},
     )  # fmt: skip
 

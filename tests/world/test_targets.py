@@ -1,6 +1,7 @@
 """How targets move: not at all, along waypoints, along a recorded track."""
 
 import math
+from collections import namedtuple
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,6 +16,7 @@ from shoal.simulation import Simulation
 from shoal.world.targets import KINDS, TARGET, Tracks, advance_target
 
 NO_DRAW = np.uint64(0)
+clock = namedtuple("clock", "time_step")  # all of the world that a recorded target asks for
 
 
 def follow(track, time, others=()):
@@ -25,7 +27,7 @@ def follow(track, time, others=()):
     target["kind"] = KINDS.index("track")
     target["first_fix"] = sum(each.time.size for each in others)
     target["fixes"], target["max_gap"] = track.time.size, track.max_gap
-    advance_target(target[0], fixes, time, 1, NO_DRAW)
+    advance_target(target[0], fixes, None, clock(time), 1, NO_DRAW)
     return float(target["x"][0]), float(target["y"][0]), bool(target["present"][0])
 
 
@@ -92,7 +94,7 @@ class TestTrack:
         target["kind"], target["fixes"], target["max_gap"] = KINDS.index("track"), 2, 100.0
         fixes = Tracks(np.array([0.0, 10.0]), np.array([0.0, 4.0]), np.array([0.0, 2.0]))
         for steps_done in range(1, 30):
-            advance_target(target[0], fixes, 1.0, steps_done, NO_DRAW)
+            advance_target(target[0], fixes, None, clock(1.0), steps_done, NO_DRAW)
         assert (target["x"][0], target["y"][0], target["present"][0]) == (4.0, 2.0, 0)
 
     def test_in_a_run_the_frame_of_a_step_shows_the_track_at_its_time(self):

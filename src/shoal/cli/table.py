@@ -41,7 +41,11 @@ def print_record(record: Record) -> None:
     for title, justify in (("", "left"), ("mean", "right"), ("95 % interval", "right"), ("unit", "left")):
         table.add_column(title, justify=justify)  # type: ignore[arg-type]
     for name, metric in METRICS.items():
-        table.add_row(_LABELS[name], *_cells(record.estimate(name)), "" if metric.unit == "1" else metric.unit)
+        table.add_row(
+            _LABELS.get(name, name.replace("_", " ")),
+            *_cells(record.estimate(name)),
+            "" if metric.unit == "1" else metric.unit,
+        )
     if len(facts.fleets) > 1:
         for fleet, value in record.fleet_estimate("xi_raw").items():
             table.add_row(f"  Xi, not normalised, {fleet}", *_cells(value), "m/s")

@@ -11,6 +11,7 @@ from shoal.experiments.design import Design, Point
 from shoal.experiments.executors import Done, Executor, Task, in_threads
 from shoal.experiments.replicate import Row, replicate
 from shoal.experiments.store import Store
+from shoal.metrics.summary import METRICS
 from shoal.record.statistics import estimate
 from shoal.version import RESULTS_VERSION
 
@@ -85,6 +86,7 @@ def sweep(
         "changes": changes,
         "independent": independent,
         "results_version": RESULTS_VERSION,
+        "metrics": list(METRICS),
     }
     execute = executor or in_threads()
     with Store(out, identity) as store:

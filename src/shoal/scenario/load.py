@@ -104,7 +104,8 @@ def _as_scenario_error(
     problems: Sequence[tuple[tuple[Any, ...], Any]], table: Mapping[str, Any], where: str, text: str
 ) -> ScenarioError:
     """One error for all problems, the first in full."""
-    real = [(loc, each) for loc, each in problems if each["type"] != "too_short"]  # follows from others in a tuple
+    # too_short follows from others in a tuple, literal_error of "all" comes with the error of the number
+    real = [(loc, each) for loc, each in problems if each["type"] != "too_short" and loc[-1:] != ("literal['all']",)]
     real.sort(key=lambda problem: problem[1]["type"] != "extra_forbidden")  # a misspelt field explains a missing one
     (loc, first), *others = real or problems
     problem, fix = _explain(_path(loc), first, table)
@@ -146,8 +147,13 @@ def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tup
 
 
 def _path(loc: Sequence[Any]) -> tuple[Any, ...]:
-    """A pydantic location without the tags it adds for the kind of a target."""
-    return tuple(part for at, part in enumerate(loc) if not (at == 2 and loc[0] == "targets" and part in _TARGETS))
+    """A pydantic location without the tags it adds for the kind of a target and for each way to spell a degree."""
+    return tuple(
+        part
+        for at, part in enumerate(loc)
+        if not (at == 2 and loc[0] == "targets" and part in _TARGETS)
+        and part not in ("constrained-int", "literal['all']")
+    )
 
 
 def _dotted(path: Sequence[Any]) -> str:
