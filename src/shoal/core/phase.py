@@ -79,6 +79,7 @@ def _put(stage, room):
     return _store(stage, room.ctypes.data)
 
 
+_TUPLE: Any = types.BaseTuple  # NamedTuples, too
 _as_kernel: Any = intrinsic
 _as_literal_kernel: Any = intrinsic(prefer_literal=True)
 
@@ -104,9 +105,9 @@ def _load(context, here, field):
     return stage[place](types.int64, field), build
 
 
-def _unowned(context, builder, kind, pointer):
+def _unowned(context: Any, builder: Any, kind: Any, pointer: Any) -> Any:
     """The value at a pointer, with arrays that nobody counts references to: counting costs more than a step."""
-    if isinstance(kind, types.BaseTuple):  # a NamedTuple, too
+    if isinstance(kind, _TUPLE):
         parts = [
             _unowned(context, builder, each, cgutils.gep_inbounds(builder, pointer, 0, place))
             for place, each in enumerate(kind)
