@@ -21,9 +21,9 @@ from shoal.engine.stage import Frames, Stage, new_scratch
 from shoal.metrics.summary import Facts
 from shoal.metrics.tally import new_tally
 from shoal.record.trajectory import Trajectory
+from shoal.scenario.crew import Crew, crew_of
 from shoal.scenario.schema import Scenario, StillTarget, TrackTarget, WaypointTarget
 from shoal.scenario.tracks import Track, read_track
-from shoal.strategies import Strategy
 from shoal.version import RESULTS_VERSION
 from shoal.world.arena import World
 from shoal.world.placement import PLACES
@@ -60,32 +60,31 @@ class Simulation:
         self.scenario = scenario
         self.run = run
         self.number = 0
-        strategy = scenario.strategy.owner
-        self.memory_fields = tuple(strategy.memory)
-        self.params = scenario.strategy.kernel_params()
+        self.crew = crew_of(scenario)
+        self.memory_fields = self.crew.memory
         self.world = _build_world(scenario)
-        self.swarm = _build_swarm(scenario, strategy)
-        self.radio = _build_radio(scenario, strategy, self.swarm.x.size)
+        self.swarm = _build_swarm(scenario, self.crew)
+        self.radio = _build_radio(scenario, self.crew, self.swarm.x.size)
         tracks = open_tracks(scenario)
         self.notes = [note for track in tracks for note in track.notes]
         self.targets, self.tracks = _build_targets(scenario, tracks)
         self.minds = Minds(
             memory=as_records(self.swarm.memory, self.memory_fields),
-            told=as_records(self.swarm.told, strategy.told),
-            arrived=as_records(self.radio.told, strategy.told),
+            told=as_records(self.swarm.told, self.crew.told),
+            arrived=as_records(self.radio.told, self.crew.told),
         )
         batches = min(BATCHES, scenario.steps)
         self.tally = new_tally(scenario.steps, batches, len(scenario.fleets), scenario.agents, len(scenario.targets))
         self._scratch = new_scratch(self.world, self.swarm.x.size)
-        self._begin, self._rollout = _compiled(strategy)
+        self._begin, self._rollout = _compiled(self.crew)
         self._seed = np.uint64(scenario.seed)
         places = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
         lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
         here, held = put(self._stage(self._new_frames(0)))
         self._phases = Addresses._make(phase.address() for phase in PHASES)
         _set_out(here, places, lifetimes, _losses(scenario), self._seed, run)
-        with _compiling(strategy):
-            self._begin(here, self.minds, self.params, self._seed, run)
+        with _compiling(self.crew):
+            self._begin(here, self.minds, self.crew.params, self._seed, run)
         del held
 
     def advance(self, steps: int, *, every: int | None = None, tail: int | None = None) -> Trajectory | None:
@@ -100,11 +99,11 @@ class Simulation:
         kept = count_frames(self.number, last, every, tail)
         frames = self._new_frames(kept)
         here, held = put(self._stage(frames))
-        with _compiling(self.scenario.strategy.owner):
+        with _compiling(self.crew):
             self._rollout(
                 here,
                 self.minds,
-                self.params,
+                self.crew.params,
                 self._phases,
                 self._seed,
                 self.run,
@@ -185,7 +184,7 @@ class Simulation:
         swarm = self.swarm
         parts = (swarm.x, swarm.y, swarm.vx, swarm.vy, self.tally.fluctuation)
         if not all(np.isfinite(part).all() for part in parts):
-            strategy = self.scenario.strategy.owner
+            strategy = self.crew
             raise StrategyError(
                 strategy.source,
                 f"strategy {strategy.name!r} wanted a velocity that is no finite number, before step {self.number}",
@@ -216,7 +215,7 @@ class Simulation:
 
 
 @contextmanager
-def _compiling(strategy: Strategy) -> Iterator[None]:
+def _compiling(strategy: Crew) -> Iterator[None]:
     """Turn the compiler's pages about a user's strategy into one error."""
     try:
         yield
@@ -245,7 +244,7 @@ def facts_of(scenario: Scenario) -> Facts:
         unit=scenario.unit,
         time_step=scenario.time_step,
         area=scenario.area.width * scenario.area.height,
-        report_bytes=REPORT_BYTES + 8 * len(scenario.strategy.owner.told),
+        report_bytes=REPORT_BYTES + 8 * len(crew_of(scenario).told),
     )
 
 
@@ -259,14 +258,21 @@ def count_frames(first: int, last: int, every: int | None, tail: int) -> int:
 
 def needs_compiling(scenario: Scenario) -> bool:
     """Whether the first step will compile the engine for this strategy (once per version, about 10 s)."""
-    return not scenario.strategy.owner.builtin or not _compiled_mark(scenario.strategy.name).exists()
+    crew = crew_of(scenario)
+    return not crew.builtin or not _compiled_mark(crew.name).exists()
+
+
+def engine_is_compiled() -> bool:
+    """Whether the parts of the engine that know no strategy are in the cache."""
+    return any(cache_folder().glob("compiled-*"))
 
 
 def mark_compiled(scenario: Scenario) -> None:
     """Remember that this strategy's engine is in the cache."""
-    if scenario.strategy.owner.builtin:
+    crew = crew_of(scenario)
+    if crew.builtin:
         try:
-            _compiled_mark(scenario.strategy.name).touch()
+            _compiled_mark(crew.name).touch()
         except OSError:
             return  # only a message depends on it
 
@@ -275,16 +281,17 @@ def _compiled_mark(name: str) -> Path:
     return cache_folder() / f"compiled-{name}"
 
 
-_UNCACHED: dict[type[Any], tuple[Any, Any]] = {}
+_UNCACHED: dict[Any, tuple[Any, Any]] = {}
 
 
-def _compiled(strategy: Strategy) -> tuple[Any, Any]:
+def _compiled(strategy: Crew) -> tuple[Any, Any]:
     """begin_run and rollout: from the cache for our own strategies, fresh ones for a user's."""
     if strategy.builtin:
         return begin_run, rollout
-    if strategy.params not in _UNCACHED:
-        _UNCACHED[strategy.params] = (uncached(begin_run), uncached(rollout))
-    return _UNCACHED[strategy.params]
+    kind = tuple(each.params for each in strategy.strategies)
+    if kind not in _UNCACHED:
+        _UNCACHED[kind] = (uncached(begin_run), uncached(rollout))
+    return _UNCACHED[kind]
 
 
 def _build_world(scenario: Scenario) -> World:
@@ -310,10 +317,10 @@ def _is_mortal(scenario: Scenario) -> bool:
     return bool(scenario.losses or scenario.joins or any(fleet.mean_lifetime for fleet in scenario.fleets))
 
 
-def _build_swarm(scenario: Scenario, strategy: Strategy) -> Swarm:
+def _build_swarm(scenario: Scenario, crew: Crew) -> Swarm:
     """Agents in the order of the fleets, nowhere yet; those who join later are the last of their fleet."""
     agents, fleets, counts = scenario.agents, scenario.fleets, scenario.counts
-    swarm = new_swarm(counts, tuple(strategy.memory), strategy.told)
+    swarm = new_swarm(counts, crew.memory, crew.told)
 
     def fill(array: Any, values: list[Any]) -> None:
         array[:agents] = np.repeat(values, counts)
@@ -324,7 +331,10 @@ def _build_swarm(scenario: Scenario, strategy: Strategy) -> Swarm:
     fill(swarm.false_alarm, [fleet.false_alarm_probability for fleet in fleets])
     fill(swarm.max_acceleration, [fleet.max_acceleration or math.inf for fleet in fleets])
     fill(swarm.max_turn_rate, [math.radians(fleet.max_turn_rate or math.inf) for fleet in fleets])
-    degrees = [agents - 1 if strategy.hears_all else fleet.neighbors or scenario.network.neighbors for fleet in fleets]
+    degrees = [
+        "all" if strategy.hears_all else fleet.neighbors or scenario.network.neighbors
+        for strategy, fleet in zip(crew.strategies, fleets, strict=True)
+    ]
     fill(swarm.neighbors, [agents - 1 if degree == "all" else degree for degree in degrees])
     swarm.share_end[:agents] = np.cumsum(swarm.max_speed[:agents]) / swarm.max_speed[:agents].sum()
     nobody = swarm.fleet_end - [
@@ -337,11 +347,11 @@ def _build_swarm(scenario: Scenario, strategy: Strategy) -> Swarm:
     return swarm
 
 
-def _build_radio(scenario: Scenario, strategy: Strategy, lanes: int) -> Radio:
+def _build_radio(scenario: Scenario, crew: Crew, lanes: int) -> Radio:
     network, adaptive = scenario.network, scenario.network.adaptive
     return new_radio(
         lanes,
-        strategy.told,
+        crew.told,
         limited=network.range is not None or network.delay > 0 or _is_mortal(scenario),
         reach=network.range or math.inf,
         delay=network.delay,

@@ -75,8 +75,9 @@ def run(
     load_compiler()
     from shoal.core.errors import ScenarioError
     from shoal.runs import simulate
+    from shoal.scenario.crew import crew_of
     from shoal.scenario.load import scenario_from
-    from shoal.simulation import needs_compiling
+    from shoal.simulation import engine_is_compiled, needs_compiling
 
     changes: dict[str, Any] = {
         "agents": agents,
@@ -96,10 +97,9 @@ def run(
     table = edited_table(scenario, changes, assignments or [], target_track, track_id)
     chosen = scenario_from(table, where=scenario)
     if needs_compiling(chosen):
-        once = (
-            "once per version of Shoal" if chosen.strategy.owner.builtin else "a file of yours is compiled every time"
-        )
-        note(f"compiling the engine for strategy {chosen.strategy.name!r} (about 15 s, {once})")
+        crew, seconds = crew_of(chosen), 5 if engine_is_compiled() else 20
+        once = "once per version of Shoal" if crew.builtin else "a file of yours is compiled every time"
+        note(f"compiling the engine for strategy {crew.name!r} (about {seconds} s, {once})")
     with progress_bar(f"{chosen.name}, {runs} x {chosen.steps:,} steps") as progress:
         record = simulate(chosen, runs=runs, jobs=jobs, every=every, out=out, progress=progress)
     for each in record.provenance["notes"]:

@@ -7,6 +7,7 @@ cache lives in a folder named by a hash of all our kernel sources (docs/decision
 import hashlib
 import os
 import tempfile
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache
@@ -15,7 +16,11 @@ from typing import Any, TypeVar, cast
 
 import numba
 from numba.core import config as numba_config
+from numba.core.errors import NumbaExperimentalFeatureWarning
 from numba.core.registry import CPUDispatcher
+
+# Fleets with strategies of their own share memory records, which numba passes by their first fields and warns of.
+warnings.filterwarnings("ignore", message="Record", category=NumbaExperimentalFeatureWarning)
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 

@@ -43,7 +43,9 @@ def read_table(source: str | Path) -> dict[str, Any]:
         raise ScenarioError(str(source), f"is not valid TOML: {error}", "see https://toml.io for the syntax") from None
     folder = Path(source).resolve().parent
     chosen, targets = table.get("strategy"), table.get("targets")
-    for part in (chosen, *(targets if isinstance(targets, list) else ())):
+    fleets = table.get("fleets")
+    own = [fleet.get("strategy") for fleet in (fleets if isinstance(fleets, list) else ()) if isinstance(fleet, dict)]
+    for part in (chosen, *own, *(targets if isinstance(targets, list) else ())):
         if isinstance(part, dict) and isinstance(part.get("file"), str):
             part["file"] = str(folder / part["file"])
     return table
@@ -61,13 +63,31 @@ def scenario_from(table: Mapping[str, Any], *, where: str = "scenario", text: st
     chosen = table.get("strategy")
     if isinstance(chosen, dict) and isinstance(chosen.get("file"), str):
         table["strategy"] = load_strategies(chosen)
+    if isinstance(table.get("fleets"), (list, tuple)):
+        table["fleets"] = [_with_own_strategy(fleet) for fleet in table["fleets"]]
     try:
         return Scenario.model_validate(table)
     except StrategyParamsError as error:
-        problems = [(("strategy", *each["loc"]), each) for each in error.error.errors()]
+        problems = [((*_strategy_path(error.table, table), *each["loc"]), each) for each in error.error.errors()]
     except ValidationError as error:
         problems = [(each["loc"], each) for each in error.errors()]
     raise _as_scenario_error(problems, table, where, text)
+
+
+def _with_own_strategy(fleet: Any) -> Any:
+    """A fleet's table, its strategy's file loaded."""
+    chosen = fleet.get("strategy") if isinstance(fleet, Mapping) else None
+    if isinstance(chosen, dict) and isinstance(chosen.get("file"), str):
+        return {**fleet, "strategy": load_strategies(chosen)}
+    return fleet
+
+
+def _strategy_path(wrong: Any, table: Mapping[str, Any]) -> tuple[Any, ...]:
+    """Where in a scenario a wrong strategy table is."""
+    for number, fleet in enumerate(table.get("fleets", ())):
+        if isinstance(fleet, Mapping) and fleet.get("strategy") is not None and fleet["strategy"] == wrong:
+            return ("fleets", number, "strategy")
+    return ("strategy",)
 
 
 def to_toml(scenario: Scenario) -> str:

@@ -85,7 +85,7 @@ class StrategyChoice:
         try:
             return cls.validate(value)
         except PydanticError as error:  # keep the path: pydantic only nests errors of its own schemas
-            raise StrategyParamsError(error) from error
+            raise StrategyParamsError(error, value) from error
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> dict[str, Any]:
@@ -98,9 +98,10 @@ class StrategyChoice:
 class StrategyParamsError(Exception):
     """Carries pydantic's error about a parameter out of the scenario's own validation."""
 
-    def __init__(self, error: PydanticError) -> None:
+    def __init__(self, error: PydanticError, table: Any) -> None:
         super().__init__(str(error))
         self.error = error
+        self.table = table
 
 
 def params_model(owner: Strategy) -> type[BaseModel]:

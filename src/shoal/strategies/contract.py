@@ -56,6 +56,7 @@ class Strategy:
 
 RESERVED = ("name", "file", "source")  # what else a [strategy] table says
 
+TEAM = "team"  # its params hold other strategies' params; scenarios make it from fleets.strategy, see team.py
 CATALOGUE: dict[str, Strategy] = {}  # by name; the last one registered under a name
 _OWNERS: dict[type[Any], Strategy] = {}  # by class of parameters; all that were ever registered
 
@@ -191,12 +192,12 @@ def influence(me: Any, other: Any, params: Any) -> Any:
 
 def has_influence(params: Any) -> Any:
     """Whether the owner of params sums anything; a compile-time constant, so that nothing is summed in vain."""
-    return _owner(type(params)).influence is not None
+    return _has(params, type(params), "influence")
 
 
 def is_informed(params: Any) -> Any:
     """Whether the owner of params is told the truth; a compile-time constant, too."""
-    return _owner(type(params)).informed
+    return _has(params, type(params), "informed")
 
 
 def decide(me: Any, heard: Any, memory: Any, params: Any, draw: Any) -> Any:
@@ -230,14 +231,14 @@ def _influence(me, other, params):
 
 @overload(has_influence, inline="always")
 def _has_influence(params):
-    if _owner(params.instance_class).influence is None:
-        return lambda params: False
-    return lambda params: True
+    if _has(params.types, params.instance_class, "influence"):
+        return lambda params: True
+    return lambda params: False
 
 
 @overload(is_informed, inline="always")
 def _is_informed(params):
-    if _owner(params.instance_class).informed:
+    if _has(params.types, params.instance_class, "informed"):
         return lambda params: True
     return lambda params: False
 
@@ -248,10 +249,20 @@ def _decide(me, heard, memory, params, draw):
     return lambda me, heard, memory, params, draw: chosen(me, heard, memory, params, draw)
 
 
+def _has(parts: Any, params_class: type[Any], trait: str) -> bool:
+    """Whether the owner of params has a trait, or any params inside these (values or their types)."""
+    owner = _owner(params_class)
+    if owner.name != TEAM:
+        return bool(getattr(owner, trait))
+    inside = [(part, getattr(part, "instance_class", type(part))) for part in parts]
+    return any(_has(getattr(part, "types", part), kind, trait) for part, kind in inside if kind in _OWNERS)
+
+
 def _owner(params_class: type[Any]) -> Strategy:
     return _OWNERS[params_class]
 
 
 def _add(known: Strategy) -> None:
-    CATALOGUE[known.name] = known
+    if known.name != TEAM:
+        CATALOGUE[known.name] = known
     _OWNERS[known.params] = known

@@ -4,13 +4,12 @@ Kwa, Tokic, Yue, Bouffanais, "Heterogeneous Swarms for Maritime Dynamic Target S
 Eqs. 2-4, Algorithms 1 and 2. The predecessor (Kwa, Leong Kit, Bouffanais, AAMAS 2020) differs in parameters only.
 """
 
-import math
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import uniform
-from shoal.core.kernel import kernel
 from shoal.core.units import Choice, Meters, Says
 from shoal.strategies.contract import strategy
+from shoal.strategies.parts import adapted, inverse_power, power
 
 
 class KnnPso(NamedTuple):
@@ -43,20 +42,8 @@ def priority(me, other, params):
 
 
 def influence(me, other, params):
-    """One term of Eq. 4 without a_R^d, which `decide` multiplies: r_ij^-d (x_i - x_j) / r_ij  [m^-d].
-
-    The softening keeps agents at the same place finite: they give no push, having no direction.
-    """
-    dx = me.x - other.x
-    dy = me.y - other.y
-    square = dx * dx + (dy * dy + _SOFTENING)
-    if params.repulsion_exponent == 6.0:
-        inverse = 1.0 / square
-        fourth = inverse * inverse
-        push = fourth * fourth * math.sqrt(square)  # r^-7
-    else:
-        push = min(square ** (-0.5 * (params.repulsion_exponent + 1.0)), _LARGEST_PUSH)
-    return push * dx, push * dy
+    """One term of Eq. 4 without a_R^d, which `decide` multiplies."""
+    return inverse_power(me, other, params.repulsion_exponent)
 
 
 def decide(me, heard, memory, params, draw):
@@ -64,13 +51,16 @@ def decide(me, heard, memory, params, draw):
 
     v <- omega v + (c r (Nbest - x) + repulsion_step sum_j (a_R / r_ij)^d (x_i - x_j) / r_ij) / dt     Eqs. 2-4
     """
-    adapt_repulsion(me, heard, memory, params)
-    if params.repulsion_exponent == 6.0:
-        cube = memory.repulsion * memory.repulsion * memory.repulsion
-        strength = cube * cube
-    else:
-        strength = memory.repulsion**params.repulsion_exponent
-    push = params.repulsion_step * strength
+    contact = me.on_target or heard.found
+    memory.repulsion = adapted(
+        memory.repulsion,
+        contact,
+        params.repulsion_min,
+        params.repulsion_max,
+        params.delta,
+        params.delta * params.shrink,
+    )
+    push = params.repulsion_step * power(memory.repulsion, params.repulsion_exponent)
     step_x = push * heard.sum_x
     step_y = push * heard.sum_y
     if heard.found and not me.on_target:
@@ -82,19 +72,6 @@ def decide(me, heard, memory, params, draw):
     return params.inertia * me.vx + rate * step_x, params.inertia * me.vy + rate * step_y
 
 
-@kernel
-def adapt_repulsion(me, heard, memory, params):
-    """Algorithm 1 to the letter: test, then step, so a_R can end up to one delta outside its range."""
-    if me.on_target or heard.found:
-        if memory.repulsion > params.repulsion_min:
-            memory.repulsion -= params.delta * params.shrink
-    elif memory.repulsion < params.repulsion_max:
-        memory.repulsion += params.delta
-
-
-_LARGEST_PUSH = 1e100  # finite under any exponent, so that zero distance times it is zero
-_SOFTENING = 1e-24  # [m^2]: below the last digit of any distance over 10 nm
-
 strategy(
     "knn-pso",
     params=KnnPso,
@@ -102,4 +79,5 @@ strategy(
     begin=begin,
     priority=priority,
     influence=influence,
+    reference="Kwa, Tokic, Yue, Bouffanais, OCEANS 2020",
 )(decide)

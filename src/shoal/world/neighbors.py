@@ -226,15 +226,38 @@ def _walk(links, i, off):
 
 @kernel
 def _settle_tie(links, i, k, agents):
-    """Rank listener i's speakers by (distance, index) and put those from rank k on out of reach. Slow and rare."""
+    """Move listener i's reach to its k-th distance; of those at it, put the surplus out, highest indices first."""
     square = links.square
-    for j in range(agents):
-        rank = 0
-        for other in range(agents):
-            rank += square[other, i] < square[j, i] or (square[other, i] == square[j, i] and other < j)
-        if rank == k - 1:
-            links.reach[i] = square[j, i]
-            for other in range(j + 1, agents):
-                if square[other, i] == square[j, i]:
-                    square[other, i] = np.inf
-            return
+    reach = links.reach[i]
+    while True:
+        within = 0
+        equal = 0
+        farthest = -1.0
+        second = -1.0
+        beyond = np.inf
+        for j in range(agents):
+            d = square[j, i]
+            if d > reach:
+                beyond = min(beyond, d)
+                continue
+            within += 1
+            if d > farthest:
+                second = farthest
+                farthest = d
+                equal = 1
+            elif d == farthest:
+                equal += 1
+            elif d > second:
+                second = d
+        if within < k and beyond < np.inf:
+            reach = beyond
+        elif within - equal >= k:
+            reach = second
+        else:
+            break
+    links.reach[i] = reach
+    surplus = within - k
+    for j in range(agents - 1, -1, -1):
+        if surplus > 0 and square[j, i] == farthest:
+            square[j, i] = np.inf
+            surplus -= 1

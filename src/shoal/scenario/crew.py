@@ -1,0 +1,67 @@
+"""Which strategies a scenario's fleets follow, as the engine takes them: one, or a team of several."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from shoal.scenario.schema import Scenario
+from shoal.scenario.strategy_choice import StrategyChoice
+from shoal.strategies import Strategy
+from shoal.strategies.team import Team
+
+
+@dataclass(frozen=True)
+class Crew:
+    """What runs.
+
+    Attributes
+    ----------
+    strategies : of each fleet
+    params : NamedTuple for the kernels; its class decides whose functions run
+    memory : names of all remembered fields, those that are told first
+    told : names of those
+    """
+
+    strategies: tuple[Strategy, ...]
+    params: Any
+    memory: tuple[str, ...]
+    told: tuple[str, ...]
+
+    @property
+    def builtin(self) -> bool:
+        """Whether all of it comes with Shoal, so that compiled code can be cached."""
+        return all(each.builtin for each in self.strategies)
+
+    @property
+    def name(self) -> str:
+        """Names of the strategies, each once."""
+        return "+".join(dict.fromkeys(each.name for each in self.strategies))
+
+    @property
+    def source(self) -> str:
+        """File of the first strategy that a user wrote, or else of the first."""
+        return next((each for each in self.strategies if not each.builtin), self.strategies[0]).source
+
+
+def crew_of(scenario: Scenario) -> Crew:
+    """Return the strategies of a scenario's fleets; fleets without one of their own follow the scenario's."""
+    choices = [fleet.strategy or scenario.strategy for fleet in scenario.fleets]
+    owners = tuple(choice.owner for choice in choices)
+    told = tuple(dict.fromkeys(field for owner in owners for field in owner.told))
+    rest = [field for owner in owners for field in owner.memory]
+    return Crew(
+        strategies=owners,
+        params=_team(choices, scenario.counts),
+        memory=tuple(dict.fromkeys([*told, *rest])),
+        told=told,
+    )
+
+
+def _team(choices: list[StrategyChoice], counts: list[int]) -> Any:
+    """Parameters of one strategy if all fleets follow it alike, of nested teams if not."""
+    params = choices[-1].kernel_params()
+    until = sum(counts)
+    for fleet in range(len(choices) - 2, -1, -1):
+        until -= counts[fleet + 1]
+        if not all(choice == choices[fleet] for choice in choices[fleet + 1 :]):
+            params = Team(choices[fleet].kernel_params(), params, until)
+    return params

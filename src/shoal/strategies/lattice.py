@@ -1,0 +1,38 @@
+"""Static lattice: every agent goes to its place in an even cover of the area and stays there.
+
+The yardstick of every comparison: what standing still gives (sensor coverage with a fixed grid, as in Cortes,
+Martinez, Karatas, Bullo, "Coverage control for mobile sensing networks", IEEE Trans. Robotics and Automation 20, 2004).
+"""
+
+from typing import Annotated, NamedTuple
+
+from shoal.core.units import Says
+from shoal.strategies.contract import strategy
+from shoal.strategies.parts import station, toward
+
+
+class Lattice(NamedTuple):
+    """Parameters."""
+
+    spread: Annotated[float, Says("the lattice covers this share of the sides that agents may go to")] = 0.82
+
+
+def begin(me, memory, params, draw):
+    """The place, known before leaving."""
+    half_x = params.spread * me.briefing.half_x
+    half_y = params.spread * me.briefing.half_y
+    memory.station_x, memory.station_y = station(me.id, me.briefing.agents, half_x, half_y)
+
+
+def decide(me, heard, memory, params, draw):
+    """Motionless lattice: go to a place of an even cover, and stay."""
+    return toward(me, memory.station_x, memory.station_y)
+
+
+strategy(
+    "lattice",
+    params=Lattice,
+    memory={"station_x": "m", "station_y": "m"},
+    begin=begin,
+    reference="Cortes et al., IEEE TRA 20, 2004 (coverage)",
+)(decide)

@@ -1,0 +1,43 @@
+"""Informed reference: a lattice whose agents run to the known target when it is near their station, and home again.
+
+Breaks the information rule: every agent is told where the target is.
+"""
+
+from typing import Annotated, NamedTuple
+
+from shoal.core.units import Meters, Says
+from shoal.strategies.contract import strategy
+from shoal.strategies.parts import station, toward
+
+
+class LatticePursuit(NamedTuple):
+    """Parameters."""
+
+    spread: Annotated[float, Says("the lattice covers this share of the sides that agents may go to")] = 0.82
+    reach: Annotated[Meters, Says("a target nearer to the station than this is pursued")] = 2.0
+
+
+def begin(me, memory, params, draw):
+    """The station, known before leaving."""
+    half_x = params.spread * me.briefing.half_x
+    half_y = params.spread * me.briefing.half_y
+    memory.station_x, memory.station_y = station(me.id, me.briefing.agents, half_x, half_y)
+
+
+def decide(me, heard, memory, params, draw):
+    """KNOWS THE TARGET: a lattice that pursues it near every station (a reference, not a strategy for buoys)."""
+    dx = me.truth.x - memory.station_x
+    dy = me.truth.y - memory.station_y
+    if me.truth.present and dx * dx + dy * dy < params.reach * params.reach:
+        return toward(me, me.truth.x, me.truth.y)
+    return toward(me, memory.station_x, memory.station_y)
+
+
+strategy(
+    "lattice-pursuit",
+    params=LatticePursuit,
+    memory={"station_x": "m", "station_y": "m"},
+    begin=begin,
+    informed=True,
+    reference="Shoal (reference)",
+)(decide)

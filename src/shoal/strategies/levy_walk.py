@@ -1,0 +1,56 @@
+"""Levy walk: straight legs whose lengths follow a power law; nobody listens to anybody.
+
+Viswanathan et al., "Optimizing the success of random searches", Nature 401, 1999: P(l) ~ l^-mu, optimal near mu = 2.
+"""
+
+import math
+from typing import Annotated, NamedTuple
+
+from shoal.core.draws import uniform
+from shoal.core.kernel import kernel
+from shoal.core.units import Meters, Says
+from shoal.strategies.contract import strategy
+from shoal.strategies.parts import turned_from_walls
+
+
+class LevyWalk(NamedTuple):
+    """Parameters."""
+
+    exponent: Annotated[float, Says("mu: P(l) ~ l^-mu, more than 1")] = 2.0
+    shortest: Annotated[Meters, Says("shortest leg")] = 1.0
+    longest: Annotated[Meters, Says("longest leg")] = 20.0
+
+
+def begin(me, memory, params, draw):
+    """The first leg."""
+    memory.heading = 2.0 * math.pi * uniform(draw, 0)
+    memory.leg = leg_length(uniform(draw, 1), params.exponent, params.shortest, params.longest)
+
+
+def decide(me, heard, memory, params, draw):
+    """Levy walk: legs of power-law length in random directions (Viswanathan et al. 1999)."""
+    if memory.leg <= 0.0:
+        memory.heading = 2.0 * math.pi * uniform(draw, 0)
+        memory.leg = leg_length(uniform(draw, 1), params.exponent, params.shortest, params.longest)
+    memory.heading = turned_from_walls(me, memory.heading)
+    memory.leg -= me.max_speed * me.time_step
+    return me.max_speed * math.cos(memory.heading), me.max_speed * math.sin(memory.heading)
+
+
+@kernel
+def leg_length(chance, exponent, shortest, longest):
+    """Length [m] with P(l) ~ l^-exponent between two bounds, by inversion of its distribution."""
+    if exponent == 1.0:
+        return shortest * (longest / shortest) ** chance
+    power = 1.0 - exponent
+    low = shortest**power
+    return (low + chance * (longest**power - low)) ** (1.0 / power)
+
+
+strategy(
+    "levy-walk",
+    params=LevyWalk,
+    memory={"heading": "rad", "leg": "m"},
+    begin=begin,
+    reference="Viswanathan et al., Nature 401, 1999",
+)(decide)

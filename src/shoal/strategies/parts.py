@@ -1,0 +1,115 @@
+"""Building blocks that several strategies share."""
+
+import math
+
+from shoal.core.kernel import kernel
+
+
+@kernel
+def inverse_power(me, other, exponent):
+    """One term of the paper's repulsion without a_R^d: r_ij^-d (x_i - x_j) / r_ij  [m^-d]. OCEANS 2020, Eq. 4.
+
+    The softening keeps agents at the same place finite: they give no push, having no direction.
+    """
+    dx = me.x - other.x
+    dy = me.y - other.y
+    square = dx * dx + (dy * dy + _SOFTENING)
+    if exponent == 6.0:
+        inverse = 1.0 / square
+        fourth = inverse * inverse
+        push = fourth * fourth * math.sqrt(square)  # r^-7
+    else:
+        push = min(square ** (-0.5 * (exponent + 1.0)), _LARGEST_PUSH)
+    return push * dx, push * dy
+
+
+@kernel
+def power(base, exponent):
+    """base^exponent, the usual one without a call of pow."""
+    if exponent == 6.0:
+        cube = base * base * base
+        return cube * cube
+    return base**exponent
+
+
+@kernel
+def adapted(repulsion, contact, low, high, grow, shrink):
+    """a_R after Algorithm 1 of OCEANS 2020, to the letter: test, then step, so it can end a step outside its range."""
+    if contact:
+        return repulsion - shrink if repulsion > low else repulsion
+    return repulsion + grow if repulsion < high else repulsion
+
+
+@kernel
+def turned_from_walls(me, heading):
+    """A heading [rad] that leads back inside where the agent is at the edge of where it may go."""
+    vx = math.cos(heading)
+    vy = math.sin(heading)
+    if abs(me.x) >= me.briefing.half_x and vx * me.x > 0.0:
+        vx = -vx
+    if abs(me.y) >= me.briefing.half_y and vy * me.y > 0.0:
+        vy = -vy
+    return math.atan2(vy, vx)
+
+
+@kernel
+def toward(me, x, y):
+    """Velocity that reaches (x, y) in this step; the engine limits it to the top speed [m/s]."""
+    rate = 1.0 / me.time_step
+    return rate * (x - me.x), rate * (y - me.y)
+
+
+@kernel
+def way_point_reached(me, x, y):
+    """Whether the agent can be at a way point within this step."""
+    dx = x - me.x
+    dy = y - me.y
+    step = me.max_speed * me.time_step
+    return dx * dx + dy * dy <= step * step
+
+
+@kernel
+def inside(me, x, y):
+    """The point of the area, where agents may go, that is nearest to (x, y) [m]."""
+    half_x = me.briefing.half_x
+    half_y = me.briefing.half_y
+    return min(max(x, -half_x), half_x), min(max(y, -half_y), half_y)
+
+
+@kernel
+def station(i, agents, half_x, half_y):
+    """Place of agent i in the most even cover of a box of +- half_x, half_y by rows [m].
+
+    Rows are as many as make cells nearly square, and differ by one agent at most. Agents go to every so many-th place,
+    so that a fleet, whose ids follow each other, is spread over the whole box.
+    """
+    place = (i * _stride(agents)) % agents
+    rows = max(1, min(agents, int(math.sqrt(agents * half_y / half_x) + 0.5)))
+    row = (place * rows) // agents
+    while (agents * (row + 1)) // rows <= place:
+        row += 1
+    first = (agents * row) // rows
+    count = (agents * (row + 1)) // rows - first
+    x = half_x * ((2.0 * (place - first) + 1.0) / count - 1.0)
+    y = half_y * ((2.0 * row + 1.0) / rows - 1.0)
+    return x, y
+
+
+@kernel
+def _stride(agents):
+    """A step near agents / golden ratio^2 that meets every place once: it has no divisor in common with agents."""
+    stride = max(1, int(0.381966 * agents))
+    while _common_divisor(stride, agents) != 1:
+        stride += 1
+    return stride
+
+
+@kernel
+def _common_divisor(a, b):
+    while b != 0:
+        a, b = b, a % b
+    return a
+
+
+_LARGEST_PUSH = 1e100  # finite under any exponent, so that zero distance times it is zero
+_SOFTENING = 1e-24  # [m^2]: below the last digit of any distance over 10 nm

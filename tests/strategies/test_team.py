@@ -1,0 +1,59 @@
+"""Strategies of single fleets."""
+
+import numpy as np
+import pytest
+
+from shoal.core.errors import ScenarioError
+from shoal.scenario.crew import crew_of
+from shoal.scenario.load import read_table, scenario_from
+from shoal.simulation import Simulation
+
+
+def team(fast=None, slow=None, **changes):
+    table = {**read_table("oceans2020"), "steps": 300, **changes}
+    for fleet, chosen in zip(table["fleets"], (fast, slow), strict=True):
+        if chosen:
+            fleet["strategy"] = chosen
+    return scenario_from(table)
+
+
+def after(scenario, steps=300):
+    simulation = Simulation(scenario)
+    simulation.advance(steps)
+    return simulation
+
+
+def test_two_equal_strategies_are_one():
+    plain = {**read_table("oceans2020")["strategy"]}
+    assert crew_of(team(plain, plain)).params == crew_of(team()).params
+    assert after(team(plain, plain)).swarm.x.tobytes() == after(team()).swarm.x.tobytes()
+
+
+def test_two_equal_halves_of_a_team_move_as_one_would():
+    """c differs by a number that changes nothing: repulsion_max, which a_R never reaches within 50 steps."""
+    other = {**read_table("oceans2020")["strategy"], "repulsion_max": 1.4}
+    mixed = after(team(None, other), 50)
+    assert crew_of(mixed.scenario).params._fields == ("first", "rest", "until")
+    assert mixed.swarm.x.tobytes() == after(team(), 50).swarm.x.tobytes()
+
+
+def test_scouts_walk_as_they_would_alone_and_the_others_stand():
+    mixed = after(team("random-walk", "lattice"))
+    walking = after(team("random-walk", "random-walk"))
+    standing = after(team("lattice", "lattice"))
+    assert mixed.swarm.x[:15].tobytes() == walking.swarm.x[:15].tobytes()
+    np.testing.assert_array_equal(mixed.swarm.x[15:50], standing.swarm.x[15:50])
+
+
+def test_each_follows_whom_its_own_strategy_follows_and_remembers_its_own():
+    mixed = after(team("encircle", "knn-pso"))
+    memory = mixed.minds.memory
+    assert (memory["speed"][:15] > 0).all()
+    assert (memory["repulsion"][15:50] > 0).all()
+    assert not memory["repulsion"][:15].any()
+    assert not memory["speed"][15:50].any()
+
+
+def test_a_wrong_parameter_is_named_with_its_fleet():
+    with pytest.raises(ScenarioError, match=r"fleets\.1\.strategy\.socia"):
+        team(None, {"name": "knn-pso", "socia": 1.0})
