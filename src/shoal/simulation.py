@@ -22,7 +22,16 @@ from shoal.metrics.summary import Facts
 from shoal.metrics.tally import new_tally
 from shoal.record.trajectory import Trajectory
 from shoal.scenario.crew import Crew, crew_of
-from shoal.scenario.schema import Scenario, StillTarget, TrackTarget, WaypointTarget
+from shoal.scenario.schema import Scenario
+from shoal.scenario.targets import (
+    DriftTarget,
+    EvasiveTarget,
+    MovingTarget,
+    StillTarget,
+    TrackTarget,
+    WalkTarget,
+    WaypointTarget,
+)
 from shoal.scenario.tracks import Track, read_track
 from shoal.version import RESULTS_VERSION
 from shoal.world.arena import World
@@ -390,14 +399,8 @@ def _build_targets(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Any, Tr
         record["lost"] = -1
         if isinstance(target, StillTarget):
             record["x"], record["y"] = target.x, target.y
-        elif isinstance(target, WaypointTarget):
-            record["speed"] = target.speed
-            record["half_x"] = scenario.area.width / 2 - target.margin
-            record["half_y"] = scenario.area.height / 2 - target.margin
-            record["turn_cos"] = math.cos(math.radians(target.max_turn))
-            record["turn_sin"] = math.sin(math.radians(target.max_turn))
-            record["waypoint_reach"] = target.waypoint_reach
-            record["waypoint_patience"] = target.waypoint_patience
+        elif isinstance(target, MovingTarget):
+            _fill_moving(record, target, scenario)
         else:
             track = unread.pop(0)
             record["first_fix"] = first_fix
@@ -405,6 +408,19 @@ def _build_targets(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Any, Tr
             record["max_gap"] = track.max_gap
             first_fix += track.time.size
     return targets, _join_tracks(tracks)
+
+
+def _fill_moving(record: Any, target: MovingTarget, scenario: Scenario) -> None:
+    """What a target's rule says; fields of the same name are the same thing."""
+    record["half_x"] = scenario.area.width / 2 - target.margin
+    record["half_y"] = scenario.area.height / 2 - target.margin
+    for name, value in target.model_dump(exclude={"kind", "margin", "max_turn", "persistence"}).items():
+        record[name] = value or 0.0
+    if isinstance(target, WaypointTarget | EvasiveTarget):
+        record["turn_cos"] = math.cos(math.radians(target.max_turn))
+        record["turn_sin"] = math.sin(math.radians(target.max_turn))
+    if isinstance(target, WalkTarget | EvasiveTarget | DriftTarget):
+        record["diffusion"] = 1.0 / target.persistence
 
 
 def _open_track(target: TrackTarget, scenario: Scenario) -> Track:

@@ -66,4 +66,6 @@ def _cells(value: Estimate) -> tuple[str, str]:
 def _target(target: dict[str, object]) -> str:
     if target["kind"] == "waypoint":
         return f"at {target['speed']:g} m/s"
+    if "speed" in target:
+        return f"{target['kind']} at {target['speed']:g} m/s"
     return f"{target['kind']} {target.get('id') or ''}".strip()

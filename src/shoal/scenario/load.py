@@ -13,10 +13,9 @@ from pydantic import ValidationError
 
 from shoal.core.errors import ScenarioError
 from shoal.scenario.plugins import find_strategy, load_strategies
-from shoal.scenario.schema import Area, Fleet, Motion, Network, Scenario, StillTarget, TrackTarget, WaypointTarget
+from shoal.scenario.schema import Area, Fleet, Motion, Network, Scenario
 from shoal.scenario.strategy_choice import StrategyParamsError, params_model
-
-_TARGETS = {"still": StillTarget, "waypoint": WaypointTarget, "track": TrackTarget}
+from shoal.scenario.targets import TARGETS
 
 
 def presets() -> list[str]:
@@ -156,11 +155,11 @@ def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tup
         hint = f"did you mean {near[0]!r}? " if near else ""
         return f"no strategy is called {wrong!r}", f'{hint}strategies: {", ".join(names)}; or file = "my_strategy.py"'
     if error["type"] == "union_tag_invalid":
-        near = difflib.get_close_matches(error["ctx"]["tag"], _TARGETS, n=1)
+        near = difflib.get_close_matches(error["ctx"]["tag"], TARGETS, n=1)
         hint = f"did you mean {near[0]!r}? " if near else ""
-        return f"no target is of kind {error['ctx']['tag']!r}", f"{hint}kinds: {', '.join(_TARGETS)}"
+        return f"no target is of kind {error['ctx']['tag']!r}", f"{hint}kinds: {', '.join(TARGETS)}"
     if error["type"] == "union_tag_not_found":
-        return "a target needs a kind", f"add kind = one of: {', '.join(_TARGETS)}"
+        return "a target needs a kind", f"add kind = one of: {', '.join(TARGETS)}"
     if isinstance(value, (dict, list, tuple)):
         return f"{error['msg'].lower()}", "see `shoal scenario oceans2020` for a complete example"
     return f"{value!r}: {error['msg'].lower()}", "change the value"
@@ -171,7 +170,7 @@ def _path(loc: Sequence[Any]) -> tuple[Any, ...]:
     return tuple(
         part
         for at, part in enumerate(loc)
-        if not (at == 2 and loc[0] == "targets" and part in _TARGETS)
+        if not (at == 2 and loc[0] == "targets" and part in TARGETS)
         and part not in ("constrained-int", "literal['all']")
     )
 
@@ -190,7 +189,7 @@ def _known_fields(path: tuple[Any, ...], table: Mapping[str, Any]) -> list[str]:
         owner = find_strategy(chosen["name"], chosen.get("source"))
         return ["file", *params_model(owner).model_fields] if owner else ["file", "name"]
     if path[0] == "targets":
-        kind: Any = _TARGETS.get(str(table["targets"][path[1]].get("kind")))
+        kind: Any = TARGETS.get(str(table["targets"][path[1]].get("kind")))
         return list(kind.model_fields) if kind else ["kind"]
     return list(models[path[0]].model_fields) if path[0] in models else []
 

@@ -4,26 +4,18 @@ import hashlib
 import json
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
 from shoal.core.units import Degrees, Kilograms, Meters, MetersPerSecond, Seconds
+from shoal.scenario.frozen import Chance, Count, Frozen, NotNegative, Positive
 from shoal.scenario.strategy_choice import StrategyChoice
+from shoal.scenario.targets import MovingTarget, Target
 
 MOST_AGENTS = 10_000  # the engine keeps all squared distances: 800 MB
 ARENA_UNITS = 20.0  # the paper's arena measures 20 units; one is the length its figures are in
 
 
-class Frozen(BaseModel):
-    """Base of every part of a scenario: cannot change, knows no extra fields."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-
-Positive = Field(gt=0)
-NotNegative = Field(ge=0)
-Count = Annotated[int, Field(strict=True, gt=0)]  # strict: neither true nor "15" is a number
 Degree = Count | Literal["all"]
-Chance = Annotated[float, Field(strict=True, ge=0, le=1)]
 
 
 class Area(Frozen):
@@ -135,50 +127,6 @@ class Motion(Frozen):
     )
 
 
-class StillTarget(Frozen):
-    """A target that stays where it is."""
-
-    kind: Literal["still"] = "still"
-    radius: Annotated[Meters, NotNegative] = Field(description="rho: size of the target [m]")
-    x: Meters = Field(default=0.0, description="east of the center [m]")
-    y: Meters = Field(default=0.0, description="north of the center [m]")
-
-
-class WaypointTarget(Frozen):
-    """The paper's target: constant speed toward uniform random waypoints, turning at most so far per step."""
-
-    kind: Literal["waypoint"] = "waypoint"
-    radius: Annotated[Meters, NotNegative] = Field(description="rho: size of the target [m]")
-    speed: Annotated[MetersPerSecond, NotNegative] = Field(description="constant speed [m/s]")
-    margin: Annotated[Meters, NotNegative] = Field(
-        default=0.0, description="waypoints and the start lie this far inside the edge [m]"
-    )
-    max_turn: Annotated[Degrees, Field(gt=0, le=180)] = Field(default=20.0, description="largest turn in a step [deg]")
-    waypoint_reach: Annotated[Meters, Positive] = Field(description="a new waypoint is taken when closer than this [m]")
-    waypoint_patience: Count = Field(default=200, description="or after so many steps on the same one")
-
-
-class TrackTarget(Frozen):
-    """A recorded track: CSV, GPX or NetCDF in longitude and latitude."""
-
-    kind: Literal["track"] = "track"
-    file: str = Field(min_length=1, description="CSV, GPX or CF NetCDF file; relative to the scenario's folder")
-    id: str | None = Field(default=None, description='which track of the file, as "COLUMN=VALUE"')
-    radius: Annotated[Meters, NotNegative] = Field(description="rho: size of the target [m]")
-    max_gap: Annotated[Seconds, Positive] | None = Field(
-        default=None, description="in a longer silence the target is not there [s]; default from the data"
-    )
-    max_speed: Annotated[MetersPerSecond, Positive] = Field(
-        default=40.0, description="a faster jump between two fixes is a GPS error [m/s]"
-    )
-    digest: str | None = Field(
-        default=None, description="hash of the fixes used; Shoal fills it in, then insists on it"
-    )
-
-
-Target = Annotated[StillTarget | WaypointTarget | TrackTarget, Field(discriminator="kind")]
-
-
 class Scenario(Frozen):
     """All a run needs, nothing it produces."""
 
@@ -268,7 +216,7 @@ class Scenario(Frozen):
     @model_validator(mode="after")
     def _waypoints_have_room(self) -> Self:
         for number, target in enumerate(self.targets):
-            if isinstance(target, WaypointTarget) and 2 * target.margin >= min(self.area.width, self.area.height):
+            if isinstance(target, MovingTarget) and 2 * target.margin >= min(self.area.width, self.area.height):
                 raise ValueError(
                     f"targets.{number}.margin is {target.margin:g} m and leaves waypoints no room; lower it"
                 )

@@ -6,9 +6,9 @@ the reports of its neighbors, which carry six numbers more than the paper's: wha
 1. Without contact, agents wait on the stations of an even cover.
 2. The estimate (position, velocity, speed, time of the last contact) passes from agent to agent: each takes over the
    latest among those of its leader and its own, moves it on, and corrects it by what one bit says: on target, the
-   target is within reach, so an estimate beyond is drawn to the rim; off target, it is not, so an estimate within is pushed to
-   the rim; and an agent that has just come on target has it on its rim. Every correction turns the estimated velocity
-   and, slowly, changes the estimated speed.
+   target is within reach, so an estimate beyond is drawn to the rim; off target, it is not, so an estimate within is
+   pushed to the rim; and an agent that has just come on target has it on its rim. Every correction turns the estimated
+   velocity and, slowly, changes the estimated speed.
 3. While the contact is fresh, agents leave their stations for a ring around the estimate, each on the side of its own
    station and at a distance from the others: together they see the target wherever around the estimate it is, and what
    they see and do not see keeps the estimate narrow. An agent goes if its station is within chase x its top speed / the

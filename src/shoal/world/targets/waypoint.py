@@ -1,0 +1,54 @@
+"""The paper's target: constant speed toward uniform random waypoints, turning at most so far per step."""
+
+import math
+
+from shoal.core.draws import split, uniform
+from shoal.core.kernel import kernel
+
+
+@kernel
+def begin_waypoint(target, draw):
+    """Take a waypoint and head for it."""
+    take_waypoint(target, split(draw, 2))
+    dx = target.waypoint_x - target.x
+    dy = target.waypoint_y - target.y
+    distance = math.sqrt(dx * dx + dy * dy)
+    target.heading_x = dx / distance if distance > 0.0 else 1.0
+    target.heading_y = dy / distance if distance > 0.0 else 0.0
+
+
+@kernel
+def seek_waypoint(target, time_step, draw):
+    """Turn toward the waypoint, at most so far per step, and go on; take a new one when near or tired of it."""
+    dx = target.waypoint_x - target.x
+    dy = target.waypoint_y - target.y
+    distance = math.sqrt(dx * dx + dy * dy)
+    if distance > 0.0:
+        dx /= distance
+        dy /= distance
+        along = target.heading_x * dx + target.heading_y * dy
+        across = target.heading_x * dy - target.heading_y * dx
+        if along >= target.turn_cos:
+            target.heading_x = dx
+            target.heading_y = dy
+        else:
+            turn_sin = target.turn_sin if across >= 0.0 else -target.turn_sin
+            heading_x = target.turn_cos * target.heading_x - turn_sin * target.heading_y
+            target.heading_y = turn_sin * target.heading_x + target.turn_cos * target.heading_y
+            target.heading_x = heading_x
+    target.x += target.speed * time_step * target.heading_x
+    target.y += target.speed * time_step * target.heading_y
+    target.waypoint_age += 1
+    dx = target.waypoint_x - target.x
+    dy = target.waypoint_y - target.y
+    near = dx * dx + dy * dy < target.waypoint_reach * target.waypoint_reach
+    if near or target.waypoint_age >= target.waypoint_patience:
+        take_waypoint(target, draw)
+
+
+@kernel
+def take_waypoint(target, draw):
+    """Choose a waypoint uniform in the target's box."""
+    target.waypoint_x = target.half_x * (2.0 * uniform(draw, 0) - 1.0)
+    target.waypoint_y = target.half_y * (2.0 * uniform(draw, 1) - 1.0)
+    target.waypoint_age = 0
