@@ -11,12 +11,14 @@ from hypothesis import strategies as st
 
 import replay
 from scenarios import scenario
+from shoal.core.agents import new_swarm
 from shoal.scenario.tracks import position_at
 from shoal.simulation import Simulation
 from shoal.world.targets import KINDS, TARGET, Tracks, advance_target
 
 NO_DRAW = np.uint64(0)
-clock = namedtuple("clock", "time_step")  # all of the world that a recorded target asks for
+clock = namedtuple("clock", "time_step agents")  # all of the world that targets ask for
+NOBODY = new_swarm([2], ())
 
 
 def follow(track, time, others=()):
@@ -27,7 +29,7 @@ def follow(track, time, others=()):
     target["kind"] = KINDS.index("track")
     target["first_fix"] = sum(each.time.size for each in others)
     target["fixes"], target["max_gap"] = track.time.size, track.max_gap
-    advance_target(target[0], fixes, None, clock(time), 1, NO_DRAW)
+    advance_target(target[0], fixes, NOBODY, clock(time, 2), 1, NO_DRAW)
     return float(target["x"][0]), float(target["y"][0]), bool(target["present"][0])
 
 

@@ -1,0 +1,1 @@
+"""Publication-ready figures of records and sweeps (extra: plots)."""
