@@ -96,7 +96,7 @@ class TestTrack:
         target["kind"], target["fixes"], target["max_gap"] = KINDS.index("track"), 2, 100.0
         fixes = Tracks(np.array([0.0, 10.0]), np.array([0.0, 4.0]), np.array([0.0, 2.0]))
         for steps_done in range(1, 30):
-            advance_target(target[0], fixes, None, clock(1.0), steps_done, NO_DRAW)
+            advance_target(target[0], fixes, NOBODY, clock(1.0, 2), steps_done, NO_DRAW)
         assert (target["x"][0], target["y"][0], target["present"][0]) == (4.0, 2.0, 0)
 
     def test_in_a_run_the_frame_of_a_step_shows_the_track_at_its_time(self):
