@@ -34,6 +34,9 @@ class TestEstimates:
         low, high = one_run.estimate("xi").ci95
         assert low < one_run.estimate("xi").mean < high
 
+    def test_of_one_run_have_none_for_what_happens_once(self, one_run):
+        assert one_run.estimate("first_detection").ci95 is None
+
     def test_of_no_such_metric(self, record):
         with pytest.raises(KeyError):
             record.estimate("happiness")
@@ -50,6 +53,23 @@ class TestEstimates:
         assert one_run.estimate("xi_raw").mean == pytest.approx(fluctuation.mean(), rel=1e-12)
         assert one_run.estimate("time_on_target").mean == frames.on_target.any(axis=1).mean()
         assert one_run.estimate("engaged").mean == pytest.approx(frames.on_target.sum(axis=1).mean())
+
+
+class TestRobustness:
+    """Before, during and after every change."""
+
+    def test_a_change_is_named_by_its_step_once(self):
+        changes = {"losses": [{"step": 100, "count": 9}, {"step": 700, "count": 9}], "steps": 600}
+        joins = [{"step": 100, "count": 3, "fleet": "BoB-0"}, {"step": 50, "count": 3, "fleet": "BoB-0"}]
+        record = simulate(scenario("oceans2020", {**changes, "joins": joins}))
+        assert record.changes() == [50, 100]
+        assert [each.keys() for each in record.robustness()] == [{"before", "during", "after", "recovery"}] * 2
+
+    def test_losing_all_ends_time_on_target(self):
+        lost = {"losses": [{"step": 300, "count": 50}], "steps": 600}
+        (change,) = simulate(scenario("oceans2020", lost), runs=2).robustness()
+        assert change["before"].mean > 0.2
+        assert change["during"].runs == (0.0, 0.0)
 
 
 class TestHistogram:

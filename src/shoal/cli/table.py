@@ -19,6 +19,7 @@ _LABELS = {
     "stationary": "stationary agents",
     "target_present": "target there",
 }
+_OF_SEVERAL_TARGETS = ("targets_observed", "fairness")
 
 
 def print_record(record: Record) -> None:
@@ -41,21 +42,38 @@ def print_record(record: Record) -> None:
     for title, justify in (("", "left"), ("mean", "right"), ("95 % interval", "right"), ("unit", "left")):
         table.add_column(title, justify=justify)  # type: ignore[arg-type]
     for name, metric in METRICS.items():
-        table.add_row(
-            _LABELS.get(name, name.replace("_", " ")),
-            *_cells(record.estimate(name)),
-            "" if metric.unit == "1" else metric.unit,
-        )
-    if len(facts.fleets) > 1:
-        for fleet, value in record.fleet_estimate("xi_raw").items():
-            table.add_row(f"  Xi, not normalised, {fleet}", *_cells(value), "m/s")
-        for fleet, value in record.fleet_estimate("stationary").items():
-            table.add_row(f"  stationary, {fleet}", *_cells(value), "")
+        if len(scenario["targets"]) > 1 or name not in _OF_SEVERAL_TARGETS:
+            table.add_row(_label(name), *_cells(record.estimate(name)), _unit(metric.unit))
+    _add_parts(table, record)
     console.print(table)
     console.print("phi histogram, agents per step from -1 (away) to +1 (toward):")
     console.print("  " + " ".join(f"{agents:.2f}" for agents in record.phi_histogram().sum(axis=0)))
     method = "over runs" if runs > 1 else "by batch means"
     console.print(f"[dim]intervals {method}; {record.provenance['seconds']:g} s[/dim]")
+
+
+def _add_parts(table: Table, record: Record) -> None:
+    """Rows of every fleet, every target and every change of the swarm, where there are several."""
+    if len(record.facts.fleets) > 1:
+        for name, unit in (("xi_raw", "m/s"), ("stationary", ""), ("speed", "m/s"), ("power", "m^3/s^3")):
+            for fleet, value in record.fleet_estimate(name).items():
+                table.add_row(f"  {_label(name)}, {fleet}", *_cells(value), unit)
+    targets = record.target_estimates()
+    for number, target in enumerate(targets if len(targets) > 1 else []):
+        for name in ("time_on_target", "first_detection", "reacquisition"):
+            table.add_row(f"  {_label(name)}, target {number + 1}", *_cells(target[name]), _unit(METRICS[name].unit))
+    for step, change in zip(record.changes(), record.robustness(), strict=True):
+        for name in ("before", "during", "after"):
+            table.add_row(f"  time on target {name} step {step:,}", *_cells(change[name]), "")
+        table.add_row(f"  recovery after step {step:,}", *_cells(change["recovery"]), "s")
+
+
+def _label(name: str) -> str:
+    return _LABELS.get(name, name.replace("_", " "))
+
+
+def _unit(unit: str) -> str:
+    return "" if unit == "1" else unit
 
 
 def _cells(value: Estimate) -> tuple[str, str]:

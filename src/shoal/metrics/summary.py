@@ -32,11 +32,15 @@ class Facts(NamedTuple):
 
 
 class Metric(NamedTuple):
-    """A number per run: its unit, one sentence, and its formula over a tally whose batches are summed (B = 1)."""
+    """A number per run: its unit, one sentence, and its formula over a tally whose batches are summed (B = 1).
+
+    once : it happens once in a run, so that batches of steps say nothing about its spread
+    """
 
     unit: str
     sentence: str
     formula: Callable[[Tally, Facts], float]
+    once: bool = False
 
 
 def _share(part: npt.NDArray[Any], whole: npt.NDArray[Any]) -> float:
@@ -113,8 +117,9 @@ METRICS: dict[str, Metric] = {
     ),
     "first_detection": Metric(
         "s",
-        "time at which a target is there until it is first detected, mean over targets",
+        "time at which a target is there until it is first detected, mean over targets; the whole of it if never",
         lambda t, f: float(t.undetected.sum(axis=0).mean()) * f.time_step,
+        once=True,
     ),
     "losses": Metric(
         "1/h",
@@ -162,8 +167,10 @@ METRICS: dict[str, Metric] = {
 
 
 def evaluate(name: str, tally: Tally, facts: Facts) -> tuple[float, Floats]:
-    """Return a metric over all steps and over each batch of steps, (B,)."""
+    """Return a metric over all steps and over each batch of steps, (B,); none of a metric that happens once."""
     formula = METRICS[name].formula
+    if METRICS[name].once:
+        return formula(tally, facts), np.array([])
     batches = [formula(batch_of(tally, b), facts) for b in range(tally.steps.size)]
     return formula(tally, facts), np.array(batches)
 

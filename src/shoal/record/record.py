@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from shoal.metrics.each_target import each_target, loss_lengths
+from shoal.metrics.robustness import Robustness, robustness
 from shoal.metrics.summary import (
     METRICS,
     Facts,
@@ -75,12 +77,48 @@ class Record:
         batches = np.array([formula(batch_of(first, b)) for b in range(first.steps.size)])
         return {name: estimate(runs[:, f], batches[:, f]) for f, name in enumerate(self.facts.fleets)}
 
+    def target_estimates(self) -> list[dict[str, Estimate]]:
+        """`time_on_target`, `first_detection` [s], `losses` [1/h] and `reacquisition` [s] of each target, over runs."""
+        runs = [each_target(tally, self.facts) for tally in self.tallies]
+        targets = range(self.tallies[0].target_steps.shape[1])
+        return [{name: estimate([run[name][j] for run in runs]) for name in runs[0]} for j in targets]
+
+    def loss_lengths(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
+        """How long targets stayed lost, of all runs: edges of the bins [s] (B + 1,), and ended losses in each (B,)."""
+        edges, counts = zip(*(loss_lengths(tally, self.facts) for tally in self.tallies), strict=True)
+        longest = max(edges, key=len)
+        return longest, np.sum([np.pad(each, (0, longest.size - 1 - each.size)) for each in counts], axis=0)
+
+    def changes(self) -> list[int]:
+        """The steps within the run at which agents are lost or join."""
+        steps = {each["step"] for kind in ("losses", "joins") for each in self.scenario[kind]}
+        return sorted(step for step in steps if step < self.scenario["steps"])
+
+    def robustness(self) -> list[dict[str, Estimate]]:
+        """Time on target `before`, `during` and `after` each of `changes`, and the `recovery` time [s], over runs.
+
+        `recovery` is the mean over the runs that recover; a run that does not is NaN among its `runs`.
+        """
+        changes = self.changes()
+        runs = [robustness(tally, changes, self.facts.time_step) for tally in self.tallies]
+        return [
+            {name: _over_some([getattr(run[c], name) for run in runs]) for name in Robustness._fields}
+            for c in range(len(changes))
+        ]
+
     def summary(self) -> dict[str, Any]:
         """Everything in plain numbers, as `shoal run --json` prints it."""
         histogram = self.phi_histogram()
+        edges, counts = self.loss_lengths()
         return {
             **{name: _plain(self.estimate(name)) for name in METRICS},
             "phi_histogram": _numbers(histogram.sum(axis=0)),
+            "targets": [{name: _plain(each) for name, each in target.items()} for target in self.target_estimates()],
+            "loss_lengths": {"edges": _numbers(edges), "counts": counts.tolist()},
+            "changes": [
+                {"step": step, **{name: _plain(each) for name, each in change.items()}}
+                for step, change in zip(self.changes(), self.robustness(), strict=True)
+            ],
             "fleets": {
                 name: {
                     "count": self.facts.counts[f],
@@ -103,6 +141,12 @@ class Record:
         from shoal.record.export import to_xarray
 
         return to_xarray(self)
+
+
+def _over_some(values: list[float]) -> Estimate:
+    """An estimate over the runs that have a value; all are listed."""
+    have = [value for value in values if np.isfinite(value)]
+    return estimate(have or [np.nan])._replace(runs=tuple(values))
 
 
 def _plain(value: Estimate) -> dict[str, Any]:
