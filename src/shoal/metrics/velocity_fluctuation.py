@@ -17,8 +17,8 @@ def tally_velocity_fluctuation(tally, batch, swarm, agents, active, scratch):
     for i in range(agents):
         mean_x += swarm.vx[i]
         mean_y += swarm.vy[i]
-    mean_x /= active
-    mean_y /= active
+    mean_x /= max(active, 1)
+    mean_y /= max(active, 1)
     for i in range(agents):
         ux = swarm.vx[i] - mean_x
         uy = swarm.vy[i] - mean_y

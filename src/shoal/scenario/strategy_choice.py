@@ -121,11 +121,8 @@ def _model_of(name: str, key: Hashable) -> type[BaseModel]:
             fields[field] = (Literal[choice.words], Field(default=choice.words[default], description=description))
         else:
             unit = _mark(hints[field], Unit)
-            kind = (
-                Annotated[type(default), Field(strict=True), unit]
-                if unit
-                else Annotated[type(default), Field(strict=True)]
-            )
+            limits = {"ge": -(2**53), "le": 2**53} if type(default) is int else {}
+            kind = Annotated[type(default), Field(strict=True, **limits), *([unit] if unit else [])]
             fields[field] = (kind, Field(default=default, description=description))
     config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
     return create_model(f"{params.__name__}Table", __config__=config, __doc__=params.__doc__, **fields)
