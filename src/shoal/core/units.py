@@ -13,7 +13,7 @@ _TO_SI: dict[str, dict[str, float]] = {
     "deg": {"deg": 1.0, "rad": 57.29577951308232},
 }
 
-_LEAST, _MOST = 1e-30, 1e12  # in SI: what kernels square and divide by stays finite
+_LEAST, _MOST = 1e-30, 1e12  # in SI: what kernels multiply and divide stays finite
 
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z/]+)\s*")
 
@@ -27,11 +27,11 @@ class Unit:
     def parse(self, value: Any) -> Any:
         """Return `value` in the unit's SI scale.
 
-        Numbers pass through unchanged; "5 kn" is converted.
+        Numbers pass through unchanged, but for those so small that their squares would vanish; "5 kn" is converted.
 
         Raises
         ------
-        ValueError : a string that is no quantity, or one in a unit of another kind
+        ValueError : a string that is no quantity, one in a unit of another kind, or a quantity too large to square
         """
         if isinstance(value, bool):
             raise ValueError(f"{value} is no quantity in {self.symbol}; write a number")
@@ -45,11 +45,9 @@ class Unit:
                 )
             number = float(match.group(1)) * known[match.group(2)]
         size = abs(number) if isinstance(number, (int, float)) else 0
-        if 0 < size < _LEAST or _MOST < size < math.inf:
-            raise ValueError(
-                f"{value} is beyond all quantities at sea; write 0 or {_LEAST:g} to {_MOST:g} {self.symbol}"
-            )
-        return number
+        if _MOST < size < math.inf:
+            raise ValueError(f"{value} is beyond all quantities at sea; write {_MOST:g} {self.symbol} at most")
+        return 0.0 if 0 < size < _LEAST else number
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
         from pydantic_core import core_schema

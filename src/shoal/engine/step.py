@@ -49,7 +49,7 @@ def listen(here, world, swarm, scratch, reports, told, params, phases, step_key,
 
 @kernel
 def decide(world, swarm, targets, scratch, reports, told, minds, params, step_key, number, first):
-    """Every agent from `first` on that is there asks its strategy for the velocity it wants, then updates what it tells."""
+    """Every agent there, from `first` on, asks its strategy for the velocity it wants and updates what it tells."""
     leader, sum_x, sum_y, count = scratch.leader, scratch.b, scratch.c, scratch.links.heard
     last = min(first + leader.size, world.agents)
     for i in range(first, last):

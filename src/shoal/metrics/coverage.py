@@ -1,4 +1,4 @@
-"""Coverage: how much of the arena agents pass through within a window of steps, and how fast they come to new places."""
+"""Coverage: how much of the arena agents pass through within a window of steps, and how fast they reach new places."""
 
 import math
 

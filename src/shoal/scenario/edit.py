@@ -92,7 +92,7 @@ def _set_fast(table: Table, value: Any) -> None:
 
 
 def _set_agents(table: Table, value: Any) -> None:
-    """So many agents in all, in the same shares of the fleets (largest remainders); k is lowered to what is possible."""
+    """So many agents in all, in the same shares of the fleets (largest remainders); k is lowered to fit."""
     if not isinstance(value, int) or value < 2:
         raise ScenarioError("agents", f"is {value!r}", "give a number of agents, 2 or more")
     fleets = _fleets(table, "agents")

@@ -209,7 +209,7 @@ class Scenario(Frozen):
 
     @model_validator(mode="after")
     def _losses_have_agents(self) -> Self:
-        counts = {None: self.agents, **dict(zip(self.fleet_names, self.counts, strict=True))}
+        counts: dict[str | None, int] = {None: self.agents, **dict(zip(self.fleet_names, self.counts, strict=True))}
         for number, loss in enumerate(self.losses):
             lost = sum(each.count for each in self.losses if loss.fleet in (each.fleet, None))
             if lost > counts[loss.fleet]:
