@@ -8,7 +8,7 @@ from shoal.core.units import Choice
 from shoal.strategies import CATALOGUE
 
 STRATEGIES = sorted(name for name, known in CATALOGUE.items() if known.builtin)
-TEAMS = [["encircle", "knn-pso"], ["levy-walk", "global-pso", "lattice-intercept"]]
+TEAMS = [["encircle", "knn-pso"]]
 KINDS = ["still", "waypoint", "line", "walk", "levy", "evasive", "drift"]
 STEPS = 50
 
@@ -210,7 +210,9 @@ def _is_free(path):
 
 def _wrong_type(rng, table):
     if rng.random() < 0.3:
-        return _replace(rng, table, lambda path, value: isinstance(value, str) and value[-3:] != " kn", [3, 1.5, True, [], {"a": 1}])
+        return _replace(
+            rng, table, lambda path, value: isinstance(value, str) and value[-3:] != " kn", [3, 1.5, True, [], {"a": 1}]
+        )
     return _replace(rng, table, lambda path, value: _is_number(value), ["text", "", True, [], [1.0], {"a": 1}])
 
 
@@ -237,7 +239,9 @@ def _not_finite(rng, table):
 
 def _huge(rng, table):
     free = ("detection_probability", "false_alarm_probability", "loss")
-    wanted = lambda path, value: _is_number(value) and "strategy" not in path and path[-1] not in free and path[-1] != "seed"  # noqa: E731
+    wanted = lambda path, value: (
+        _is_number(value) and "strategy" not in path and path[-1] not in free and path[-1] != "seed"
+    )  # noqa: E731
     return _replace(rng, table, wanted, [1e13, -1e13, 1e300, 10**13, 10**30, 10**400, "1e20 km"])
 
 

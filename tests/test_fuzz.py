@@ -18,7 +18,7 @@ CREWS = [*([name] for name in STRATEGIES), *TEAMS]
 VALID = -(-2000 // len(CREWS))  # of each crew
 CHUNKS = 20
 BROKEN = 2000 // CHUNKS  # in each chunk
-SHARES = ("time_on_target", "stationary", "target_present", "fairness", "coverage", "clustering")
+SHARES = ("time_on_target", "target_present", "fairness", "coverage", "clustering")
 
 
 def chance(*numbers):
@@ -76,6 +76,7 @@ class TestValid:
         assert tally.histogram.sum() == alive[present.any(axis=1)].sum()
         assert (tally.watched <= tally.target_steps).all()
         assert tally.on_target.sum() <= tally.engaged.sum() <= n * tally.on_target.sum()
+        assert (tally.stationary.sum(axis=0) <= tally.histogram.sum(axis=(0, 2))).all()
         assert tally.heard.sum() <= tally.agent_steps.sum() * (n - 1)
         assert (tally.ended.sum(axis=0) <= tally.losses.sum(axis=0)).all()
         assert tally.loss_lengths.sum() == tally.ended.sum()
