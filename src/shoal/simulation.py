@@ -358,7 +358,7 @@ def _build_swarm(scenario: Scenario, crew: Crew) -> Swarm:
 
 def _build_radio(scenario: Scenario, crew: Crew, lanes: int) -> Radio:
     network, adaptive = scenario.network, scenario.network.adaptive
-    return new_radio(
+    radio = new_radio(
         lanes,
         crew.told,
         limited=network.range is not None or network.delay > 0 or _is_mortal(scenario),
@@ -367,6 +367,10 @@ def _build_radio(scenario: Scenario, crew: Crew, lanes: int) -> Radio:
         loss=network.loss,
         degree=(adaptive.fewest, adaptive.most, adaptive.patience) if adaptive else None,
     )
+    everybody = np.repeat([strategy.hears_all for strategy in crew.strategies], scenario.counts)
+    for limit in (radio.fewest, radio.most):
+        limit[: scenario.agents][everybody] = scenario.agents - 1
+    return radio
 
 
 def _losses(scenario: Scenario) -> Any:

@@ -76,7 +76,7 @@ def run(
     from shoal.core.errors import ScenarioError
     from shoal.runs import simulate
     from shoal.scenario.crew import crew_of
-    from shoal.scenario.load import scenario_from
+    from shoal.scenario.load import read_table, scenario_from
     from shoal.simulation import engine_is_compiled, needs_compiling
 
     changes: dict[str, Any] = {
@@ -96,6 +96,9 @@ def run(
         figure_format(figure)  # refused before the run, not after
     table = edited_table(scenario, changes, assignments or [], target_track, track_id)
     chosen = scenario_from(table, where=scenario)
+    asked = read_table(scenario).get("network", {}).get("neighbors")
+    if agents and neighbors is None and isinstance(asked, int) and asked >= chosen.agents:
+        note(f"k is {chosen.network.neighbors} instead of {asked}: {chosen.agents} agents have no more neighbors")
     if needs_compiling(chosen):
         crew, seconds = crew_of(chosen), 5 if engine_is_compiled() else 20
         once = "once per version of Shoal" if crew.builtin else "a file of yours is compiled every time"

@@ -1,5 +1,6 @@
 """Units at the door: "5 kn" or "2 nmi" become SI numbers, and every field says its unit."""
 
+import math
 import re
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -11,6 +12,8 @@ _TO_SI: dict[str, dict[str, float]] = {
     "kg": {"kg": 1.0, "t": 1000.0},
     "deg": {"deg": 1.0, "rad": 57.29577951308232},
 }
+
+_LEAST, _MOST = 1e-30, 1e12  # in SI: what kernels multiply and divide stays finite
 
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z/]+)\s*")
 
@@ -24,21 +27,27 @@ class Unit:
     def parse(self, value: Any) -> Any:
         """Return `value` in the unit's SI scale.
 
-        Numbers pass through unchanged; "5 kn" is converted.
+        Numbers pass through unchanged, but for those so small that their squares would vanish; "5 kn" is converted.
 
         Raises
         ------
-        ValueError : a string that is no quantity, or one in a unit of another kind
+        ValueError : a string that is no quantity, one in a unit of another kind, or a quantity too large to square
         """
         if isinstance(value, bool):
             raise ValueError(f"{value} is no quantity in {self.symbol}; write a number")
-        if not isinstance(value, str):
-            return value
-        match = _QUANTITY.fullmatch(value)
         known = _TO_SI[self.symbol]
-        if match is None or match.group(2) not in known:
-            raise ValueError(f"{value!r} is no quantity in {self.symbol}; write a number or one of: {', '.join(known)}")
-        return float(match.group(1)) * known[match.group(2)]
+        number = value
+        if isinstance(value, str):
+            match = _QUANTITY.fullmatch(value)
+            if match is None or match.group(2) not in known:
+                raise ValueError(
+                    f"{value!r} is no quantity in {self.symbol}; write a number or one of: {', '.join(known)}"
+                )
+            number = float(match.group(1)) * known[match.group(2)]
+        size = abs(number) if isinstance(number, (int, float)) else 0
+        if _MOST < size < math.inf:
+            raise ValueError(f"{value} is beyond all quantities at sea; write {_MOST:g} {self.symbol} at most")
+        return 0.0 if 0 < size < _LEAST else number
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
         from pydantic_core import core_schema

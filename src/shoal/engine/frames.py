@@ -13,7 +13,7 @@ def keep_frame(frames, frame, number, world, swarm, targets):
         frames.vx[frame, i] = swarm.vx[i]
         frames.vy[frame, i] = swarm.vy[i]
         frames.on_target[frame, i] = swarm.on_target[i]
-        frames.alive[frame, i] = swarm.joins[i] <= number < swarm.leaves[i]
+        frames.alive[frame, i] = swarm.alive[i] > 0.0
         for field in range(swarm.memory.shape[1]):
             frames.memory[frame, i, field] = swarm.memory[i, field]
     for j in range(targets.size):

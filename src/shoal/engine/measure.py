@@ -20,7 +20,7 @@ def measure_before_move(tally, batch, world, swarm, targets, engaged, active, nu
 
 
 @kernel
-def measure_links(tally, batch, world, scratch, first, number):
+def measure_links(tally, batch, world, swarm, scratch, first, number):
     """What the block of agents that just listened heard; the graph is known where all listen together."""
     links = scratch.links
     reports = 0
@@ -28,7 +28,7 @@ def measure_links(tally, batch, world, scratch, first, number):
         reports += links.heard[i]
     tally.heard[batch] += reports
     if not world.sequential:
-        tally_graph(tally, batch, world, links, scratch.leader, number)
+        tally_graph(tally, batch, world, links, swarm.alive, scratch.leader, number)
 
 
 @kernel

@@ -36,6 +36,8 @@ def look(here, number, frame, step_key):
     swarm = part(here, SWARM)
     targets = part(here, TARGETS)
     frames = part(here, FRAMES)
+    if world.mortal:
+        update_presence(swarm, world, number)
     sense(swarm, targets, world, step_key)
     keep_frame(frames, frame, number, world, swarm, targets)
     return 0
@@ -108,9 +110,9 @@ def go(here, number, batch_first, step_key):
     last = first + scratch.leader.size
     there = min(last, world.agents)
     command_x, command_y = swarm.command_x[first:last], swarm.command_y[first:last]
-    measure_links(tally, batch, world, scratch, first, number)
+    measure_links(tally, batch, world, swarm, scratch, first, number)
     if radio.adaptive:
-        adapt_degree(swarm, radio, scratch.leader, first, there, world.time_step)
+        adapt_degree(swarm, radio, scratch.links, said(radio, swarm, number), first, there, world)
     if world.inertial:
         limit_maneuver(swarm, first, there, world.time_step)
     limit_speed(command_x, command_y, swarm.max_speed[first:last], world.divide)

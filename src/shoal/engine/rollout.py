@@ -8,7 +8,8 @@ from shoal.engine.stage import FRAMES, RADIO, SCRATCH, SWARM, TALLY, TARGETS, TR
 from shoal.engine.step import step, tell
 from shoal.strategies import contract
 from shoal.world.placement import place
-from shoal.world.presence import draw_lifetimes, draw_losses
+from shoal.world.presence import draw_lifetimes, draw_losses, update_presence
+from shoal.world.radio import begin_degree
 from shoal.world.targets import begin_target
 
 
@@ -21,6 +22,7 @@ def set_out(here, places, lifetimes, losses, seed, run):
     """
     world = part(here, WORLD)
     swarm = part(here, SWARM)
+    radio = part(here, RADIO)
     targets = part(here, TARGETS)
     tracks = part(here, TRACKS)
     run_key = split(split(seed, 0), run)
@@ -29,6 +31,9 @@ def set_out(here, places, lifetimes, losses, seed, run):
     draw_lifetimes(swarm, world, lifetimes, run_key)
     for number, fleet, count in losses:
         draw_losses(swarm, world, number, fleet, count, run_key)
+    update_presence(swarm, world, 0)
+    if radio.adaptive:
+        begin_degree(swarm, radio, world.agents)
     for j in range(targets.size):
         begin_target(targets[j], tracks, split(start_key, TARGET_STREAM + j))
 

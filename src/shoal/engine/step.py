@@ -49,10 +49,14 @@ def listen(here, world, swarm, scratch, reports, told, params, phases, step_key,
 
 @kernel
 def decide(world, swarm, targets, scratch, reports, told, minds, params, step_key, number, first):
-    """Every agent from `first` on asks its strategy for the velocity it wants, then updates what it tells."""
+    """Every agent there, from `first` on, asks its strategy for the velocity it wants and updates what it tells."""
     leader, sum_x, sum_y, count = scratch.leader, scratch.b, scratch.c, scratch.links.heard
     last = min(first + leader.size, world.agents)
     for i in range(first, last):
+        if swarm.alive[i] == 0.0:
+            swarm.command_x[i] = 0.0
+            swarm.command_y[i] = 0.0
+            continue
         lane = i - first
         me = own(world, swarm, targets, params, number, i)
         found = leader[lane] >= 0
@@ -70,8 +74,8 @@ def decide(world, swarm, targets, scratch, reports, told, minds, params, step_ke
             told[j],
         )
         vx, vy = contract.decide(me, heard, minds.memory[i], params, split(step_key, i))
-        swarm.command_x[i] = vx if swarm.alive[i] > 0.0 else 0.0
-        swarm.command_y[i] = vy if swarm.alive[i] > 0.0 else 0.0
+        swarm.command_x[i] = vx
+        swarm.command_y[i] = vy
     tell(swarm, first, last)
 
 

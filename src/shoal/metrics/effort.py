@@ -14,6 +14,6 @@ def tally_effort(tally, batch, world, swarm):
     """
     for i in range(world.agents):
         square = swarm.vx[i] * swarm.vx[i] + swarm.vy[i] * swarm.vy[i]
-        speed = math.sqrt(square)
+        speed = swarm.alive[i] * math.sqrt(square)
         tally.distance[batch, i] += speed * world.time_step
         tally.cubes[batch, i] += speed * square * world.time_step

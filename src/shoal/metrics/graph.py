@@ -8,10 +8,11 @@ EVERY = 500  # steps between two looks at the graph
 
 
 @kernel
-def tally_graph(tally, batch, world, links, part, number):
+def tally_graph(tally, batch, world, links, alive, part, number):
     """Count the weakly connected components, and the mean clustering of the agents (Watts and Strogatz 1998).
 
-    Clustering of i: of the pairs of agents that i hears, the share in which one hears the other. `part` is scratch.
+    Clustering of i: of the pairs of agents that i hears, the share in which one hears the other; 0 of an agent that
+    hears fewer than two. Agents that are not there are no part of it. `part` is scratch.
     """
     if number % EVERY != 0:
         return
@@ -21,17 +22,20 @@ def tally_graph(tally, batch, world, links, part, number):
         part[i] = i
     for i in range(agents):
         for j in range(agents):
-            if square[j, i] <= reach[i]:
+            if square[j, i] <= reach[i] and alive[j] > 0.0:
                 _join(part, i, j)
     components = 0
+    active = 0
     for i in range(agents):
-        components += part[i] == i
+        there = alive[i] > 0.0
+        components += there and part[i] == i
+        active += there
     total = 0.0
     ears = np.empty(agents, np.int64)
     for i in range(agents):
         heard = 0
         for j in range(agents):
-            if square[j, i] <= reach[i]:
+            if square[j, i] <= reach[i] and alive[j] > 0.0:
                 ears[heard] = j
                 heard += 1
         knit = 0
@@ -42,7 +46,7 @@ def tally_graph(tally, batch, world, links, part, number):
         total += 2.0 * knit / (heard * (heard - 1)) if heard > 1 else 0.0
     tally.graphs[batch] += 1.0
     tally.components[batch] += components
-    tally.clustering[batch] += total / agents
+    tally.clustering[batch] += total / max(active, 1)
 
 
 @kernel

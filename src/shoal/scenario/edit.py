@@ -4,6 +4,7 @@ import difflib
 import re
 import tomllib
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ def apply(table: Table, changes: Mapping[str, Any]) -> Table:
     ScenarioError : a path that does not exist, or a shorthand that this scenario has no place for
     """
     changed: Table = _copy(table)
-    for name, value in changes.items():
+    for name, value in sorted(changes.items(), key=lambda change: change[0] != "agents"):  # others count on them
         key = name.replace("-", "_")
         if key in SHORTHANDS:
             SHORTHANDS[key](changed, value)
@@ -38,17 +39,19 @@ def set_path(table: Table, path: str, value: Any) -> None:
         where = ".".join(parents[: at + 1])
         if isinstance(here, list):
             here = here[_index(here, part, where)]
+        elif not isinstance(here, dict):
+            raise ScenarioError(f"--set {path}", f"{where!r} is no field of a table", "mend the scenario first")
         elif part == "strategy" and isinstance(here.get(part), str):
             here[part] = here = {"name": here[part]}
         elif isinstance(here.get(part), (dict, list)):
             here = here[part]
-        elif at == 0 and part in ("area", "network", "motion", "strategy"):
+        elif at == 0 and part not in here and part in ("area", "network", "motion", "strategy"):
             here = here.setdefault(part, {})
         else:
             near = difflib.get_close_matches(part, list(here), n=1)
             hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(here)}"
             raise ScenarioError(f"--set {path}", f"the scenario has no {where!r}", hint)
-    if isinstance(here, list):
+    if not isinstance(here, dict):
         raise ScenarioError(f"--set {path}", "names a whole entry of a list", f"name a field of it: {path}.FIELD=VALUE")
     here[last] = value
 
@@ -89,22 +92,39 @@ def _set_fast(table: Table, value: Any) -> None:
 
 
 def _set_agents(table: Table, value: Any) -> None:
-    """So many agents in all, in the same shares of the fleets (largest remainders)."""
+    """So many agents in all, in the same shares of the fleets (largest remainders); k is lowered to fit."""
     if not isinstance(value, int) or value < 2:
         raise ScenarioError("agents", f"is {value!r}", "give a number of agents, 2 or more")
-    fleets = table["fleets"]
+    fleets = _fleets(table, "agents")
     whole = sum(fleet["count"] for fleet in fleets)
-    exact = [fleet["count"] * value / whole for fleet in fleets]
+    exact = [Fraction(fleet["count"] * value, whole) for fleet in fleets]
     counts = [int(share) for share in exact]
     for f in sorted(range(len(fleets)), key=lambda f: counts[f] - exact[f])[: value - sum(counts)]:
         counts[f] += 1
     for fleet, count in zip(fleets, counts, strict=True):
         fleet["count"] = count
     table["fleets"] = [fleet for fleet in fleets if fleet["count"] > 0]
+    _lower_degrees(table, value)
+
+
+def _lower_degrees(table: Table, agents: int) -> None:
+    """Lower every k of a table to the number of others: a scenario for 50 agents then runs with 5, too."""
+    joins = table.get("joins")
+    later = [each.get("count") for each in (joins if isinstance(joins, list) else ()) if isinstance(each, dict)]
+    most = agents - 1 + sum(count for count in later if isinstance(count, int))
+    network = table.get("network")
+    adaptive = network.get("adaptive") if isinstance(network, dict) else None
+    for part in (network, adaptive, *table["fleets"]):
+        for name in ("neighbors", "fewest", "most") if isinstance(part, dict) else ():
+            if isinstance(part.get(name), int):
+                part[name] = min(part[name], most)
 
 
 def _set_target_speed(table: Table, value: Any) -> None:
-    moving = [target for target in table.get("targets", []) if "speed" in target]
+    targets = table.get("targets")
+    moving = (
+        [each for each in targets if isinstance(each, dict) and "speed" in each] if isinstance(targets, list) else []
+    )
     if not moving:
         raise ScenarioError("target-speed", "no target of this scenario has a speed", "use a waypoint target")
     for target in moving:
@@ -130,16 +150,30 @@ SHORTHANDS: dict[str, Callable[[Table, Any], None]] = {
 
 
 def _fastest_and_slowest(table: Table, option: str) -> tuple[Table, Table]:
-    fleets = sorted(table.get("fleets", []), key=lambda fleet: float(Unit("m/s").parse(fleet["max_speed"])))
+    try:
+        fleets = sorted(_fleets(table, option), key=lambda fleet: float(Unit("m/s").parse(fleet["max_speed"])))
+    except (KeyError, TypeError, ValueError):
+        raise ScenarioError(option, "needs fleets, each with a max_speed", "see `shoal scenario oceans2020`") from None
     if len(fleets) < 2:
         raise ScenarioError(option, "this scenario has one make of agents only", "add a faster fleet to it")
     return fleets[-1], fleets[0]
 
 
+def _fleets(table: Table, option: str) -> list[Table]:
+    """The fleets of a table that may be wrong elsewhere."""
+    fleets = table.get("fleets")
+    counted = isinstance(fleets, list) and all(
+        isinstance(each, dict) and isinstance(each.get("count"), int) and each["count"] > 0 for each in fleets
+    )
+    if not fleets or not counted:
+        raise ScenarioError(option, "needs fleets, each with a count", "see `shoal scenario oceans2020` for an example")
+    return list(fleets)
+
+
 def _index(entries: list[Any], part: str, where: str) -> int:
     if part.isdigit() and int(part) < len(entries):
         return int(part)
-    names = [str(entry.get("name", number)) for number, entry in enumerate(entries)]
+    names = [str(each.get("name", n) if isinstance(each, dict) else n) for n, each in enumerate(entries)]
     if part in names:
         return names.index(part)
     raise ScenarioError(f"--set {where}", f"there is no entry {part!r}", f"there are: {', '.join(names)}")

@@ -13,5 +13,5 @@ class Frozen(BaseModel):
 
 Positive = Field(gt=0)
 NotNegative = Field(ge=0)
-Count = Annotated[int, Field(strict=True, gt=0)]  # strict: neither true nor "15" is a number
+Count = Annotated[int, Field(strict=True, gt=0, le=10**12)]  # strict: neither true nor "15" is a number
 Chance = Annotated[float, Field(strict=True, ge=0, le=1)]

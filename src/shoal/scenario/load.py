@@ -13,7 +13,7 @@ from pydantic import ValidationError
 
 from shoal.core.errors import ScenarioError
 from shoal.scenario.plugins import find_strategy, load_strategies
-from shoal.scenario.schema import Area, Fleet, Motion, Network, Scenario
+from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Join, Loss, Motion, Network, Scenario
 from shoal.scenario.strategy_choice import StrategyParamsError, params_model
 from shoal.scenario.targets import TARGETS
 
@@ -45,7 +45,7 @@ def read_table(source: str | Path) -> dict[str, Any]:
     fleets = table.get("fleets")
     own = [fleet.get("strategy") for fleet in (fleets if isinstance(fleets, list) else ()) if isinstance(fleet, dict)]
     for part in (chosen, *own, *(targets if isinstance(targets, list) else ())):
-        if isinstance(part, dict) and isinstance(part.get("file"), str):
+        if isinstance(part, dict) and isinstance(part.get("file"), str) and part["file"]:
             part["file"] = str(folder / part["file"])
     return table
 
@@ -182,16 +182,29 @@ def _dotted(path: Sequence[Any]) -> str:
 def _known_fields(path: tuple[Any, ...], table: Mapping[str, Any]) -> list[str]:
     """Names that are valid beside the last part of a path."""
     models: dict[str, Any] = {"area": Area, "fleets": Fleet, "network": Network, "motion": Motion}
+    models |= {"losses": Loss, "joins": Join}
     if len(path) < 2:
         return list(Scenario.model_fields)
-    if path[0] == "strategy":
-        chosen = table["strategy"]
-        owner = find_strategy(chosen["name"], chosen.get("source"))
+    if "strategy" in path[:-1]:
+        chosen = _part_at(table, path[:-1])
+        owner = find_strategy(str(chosen.get("name")), chosen.get("source"))
         return ["file", *params_model(owner).model_fields] if owner else ["file", "name"]
     if path[0] == "targets":
-        kind: Any = TARGETS.get(str(table["targets"][path[1]].get("kind")))
+        kind: Any = TARGETS.get(str(_part_at(table, path[:2]).get("kind")))
         return list(kind.model_fields) if kind else ["kind"]
+    if path[:2] == ("network", "adaptive") and len(path) > 2:
+        return list(AdaptiveDegree.model_fields)
     return list(models[path[0]].model_fields) if path[0] in models else []
+
+
+def _part_at(table: Any, path: tuple[Any, ...]) -> Mapping[str, Any]:
+    """The table at a path; an empty one where there is none."""
+    for part in path:
+        try:
+            table = table[part]
+        except (KeyError, IndexError, TypeError):
+            return {}
+    return table if isinstance(table, Mapping) else {}
 
 
 def _field_named_by(problem: str, path: tuple[Any, ...]) -> tuple[Any, ...]:

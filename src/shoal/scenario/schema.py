@@ -171,7 +171,8 @@ class Scenario(Frozen):
     def hash(self) -> str:
         """16 hex digits over everything that shapes a run but its seed, its name and its description."""
         content = self.model_dump(mode="json", exclude={"name", "description", "seed"})
-        for part in (content["strategy"], *content["targets"]):
+        own = [fleet["strategy"] for fleet in content["fleets"] if fleet["strategy"]]
+        for part in (content["strategy"], *own, *content["targets"]):
             part.pop("file", None)  # what a file says counts (source, digest), not where it lies
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:16]
 
@@ -204,6 +205,19 @@ class Scenario(Frozen):
         for name, fleet in named.items():
             if fleet is not None and fleet not in self.fleet_names:
                 raise ValueError(f"{name}.fleet is {fleet!r}, no fleet; there are: {', '.join(self.fleet_names)}")
+        return self
+
+    @model_validator(mode="after")
+    def _losses_have_agents(self) -> Self:
+        counts: dict[str | None, int] = {None: self.agents, **dict(zip(self.fleet_names, self.counts, strict=True))}
+        for number, loss in enumerate(self.losses):
+            lost = sum(each.count for each in self.losses if loss.fleet in (each.fleet, None))
+            if lost > counts[loss.fleet]:
+                whose = f"fleet {loss.fleet!r}" if loss.fleet else "the scenario"
+                raise ValueError(
+                    f"losses.{number}.count is {loss.count}, with which {lost} agents are lost in all, but "
+                    f"{whose} has {counts[loss.fleet]}; lower it"
+                )
         return self
 
     @model_validator(mode="after")

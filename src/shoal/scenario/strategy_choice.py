@@ -121,11 +121,9 @@ def _model_of(name: str, key: Hashable) -> type[BaseModel]:
             fields[field] = (Literal[choice.words], Field(default=choice.words[default], description=description))
         else:
             unit = _mark(hints[field], Unit)
-            kind = (
-                Annotated[type(default), Field(strict=True), unit]
-                if unit
-                else Annotated[type(default), Field(strict=True)]
-            )
+            most = 2**53 if type(default) is int else None
+            kind: Any = Annotated[type(default), Field(strict=True, ge=most and -most, le=most)]
+            kind = Annotated[kind, unit] if unit else kind
             fields[field] = (kind, Field(default=default, description=description))
     config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
     return create_model(f"{params.__name__}Table", __config__=config, __doc__=params.__doc__, **fields)

@@ -37,9 +37,9 @@ def limit_maneuver(swarm, first, last, time_step):
         change_y = wanted_y - vy
         change = math.sqrt(change_x * change_x + change_y * change_y)
         most = swarm.max_acceleration[i] * time_step
-        share = most / change if change > most else 1.0
-        swarm.command_x[i] = vx + share * change_x
-        swarm.command_y[i] = vy + share * change_y
+        limited = change > most
+        swarm.command_x[i] = vx + most / change * change_x if limited else wanted_x
+        swarm.command_y[i] = vy + most / change * change_y if limited else wanted_y
 
 
 @kernel

@@ -9,7 +9,7 @@ from shoal.core.agents import Floats, width
 from shoal.core.draws import split, uniform
 from shoal.core.kernel import kernel
 
-_LOSS = 1 << 32  # a stream of keys that agents do not draw from
+_LOSS = 1 << 33  # a stream of keys that neither agents nor targets draw from
 
 
 class Radio(NamedTuple):
@@ -17,7 +17,7 @@ class Radio(NamedTuple):
 
     limited : whether any pair may be out of touch; range_square [m^2]
     delay : steps that a report takes; loss : chance that a linked pair misses a step's report
-    adaptive : k follows the contact, from fewest to most, with memory `patience` [s]
+    adaptive : k follows the contact, from fewest to most of each agent (L,), with memory `patience` [s]
     """
 
     limited: bool
@@ -25,8 +25,8 @@ class Radio(NamedTuple):
     delay: int
     loss: float
     adaptive: bool
-    fewest: int
-    most: int
+    fewest: npt.NDArray[np.int64]
+    most: npt.NDArray[np.int64]
     patience: float
     x: Floats
     y: Floats
@@ -56,7 +56,7 @@ def new_radio(
     loss: float,
     degree: tuple[int, int, float] | None,
 ) -> Radio:
-    """Return a radio that has heard nothing yet."""
+    """Return a radio that has heard nothing yet; `degree` is fewest, most and patience of an adaptive one."""
     rows = delay + 1
     fewest, most, patience = degree or (0, 0, 0.0)
     return Radio(
@@ -65,8 +65,8 @@ def new_radio(
         delay=delay,
         loss=loss,
         adaptive=degree is not None,
-        fewest=fewest,
-        most=most,
+        fewest=np.full(lanes, fewest),
+        most=np.full(lanes, most),
         patience=patience,
         x=np.zeros((rows, lanes)),
         y=np.zeros((rows, lanes)),
@@ -106,7 +106,10 @@ def said(radio, swarm, number):
 
 @kernel
 def limit_links(links, swarm, radio, first, agents, number):
-    """Unlink who is out of range, not there, or has said nothing yet; links.wanted becomes k, or all that are left."""
+    """Unlink who is out of range, not there, or has said nothing yet; links.wanted becomes k, or all that are left.
+
+    The range is to the place that a report says: where the speaker was when it spoke. Who is not there hears nobody.
+    """
     square, wanted = links.square, links.wanted
     lanes = wanted.size
     for i in range(lanes):
@@ -115,7 +118,7 @@ def limit_links(links, swarm, radio, first, agents, number):
         silent = number < radio.delay + swarm.joins[j] or number - radio.delay >= swarm.leaves[j]
         limit = -1.0 if silent else radio.range_square
         for i in range(lanes):
-            linked = square[j, i] <= limit and square[j, i] < np.inf
+            linked = square[j, i] <= limit and square[j, i] < np.inf and swarm.alive[first + i] > 0.0
             square[j, i] = square[j, i] if linked else np.inf
             wanted[i] += 1 if linked else 0
     for i in range(lanes):
@@ -133,15 +136,32 @@ def lose_reports(links, radio, step_key, first, agents):
 
 
 @kernel
-def adapt_degree(swarm, radio, leader, first, last, time_step):
+def begin_degree(swarm, radio, agents):
+    """Let k start between fewest and most, with the contact that belongs to it."""
+    for i in range(agents):
+        span = radio.most[i] - radio.fewest[i]
+        above = min(max(swarm.neighbors[i] - radio.fewest[i], 0), span)
+        swarm.neighbors[i] = radio.fewest[i] + above
+        swarm.contact[i] = above / span if span > 0 else 0.0
+
+
+@kernel
+def adapt_degree(swarm, radio, links, reports, first, last, world):
     """Let k follow the contact: k = fewest + (most - fewest) x share of recent steps with a neighbor on target.
 
     A fast target breaks contact more often, and the best k falls as the target speeds up (Kwa, Leong Kit, Bouffanais,
-    AAMAS 2020, Fig. 4): the rule needs no knowledge of the speed.
+    AAMAS 2020, Fig. 4): the rule needs no knowledge of the speed. `recent` fades: a step weighs exp(-age / patience).
     """
-    weight = min(1.0, time_step / radio.patience)
+    contact = links.off  # scratch by now
     for i in range(first, last):
-        hears = swarm.on_target[i] or leader[i - first] >= 0
-        swarm.contact[i] += weight * ((1.0 if hears else 0.0) - swarm.contact[i])
-        degree = radio.fewest + (radio.most - radio.fewest) * swarm.contact[i]
-        swarm.neighbors[i] = int(degree + 0.5)
+        contact[i - first] = 1 if swarm.on_target[i] else 0
+    for j in range(world.agents):
+        if reports.on_target[j]:
+            for i in range(last - first):
+                contact[i] |= 1 if links.square[j, i] <= links.reach[i] else 0
+    weight = min(1.0, world.time_step / radio.patience)
+    for i in range(first, last):
+        if swarm.alive[i] > 0.0:
+            swarm.contact[i] += weight * (contact[i - first] - swarm.contact[i])
+            degree = radio.fewest[i] + (radio.most[i] - radio.fewest[i]) * swarm.contact[i]
+            swarm.neighbors[i] = int(degree + 0.5)

@@ -20,4 +20,4 @@ def drift(target, time_step, draw):
 
 @kernel
 def _wrapped(place, half):
-    return place - 2.0 * half * math.floor((place + half) / (2.0 * half))
+    return (place + half) % (2.0 * half) - half

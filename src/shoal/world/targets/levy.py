@@ -3,6 +3,8 @@
 Viswanathan et al., "Optimizing the success of random searches", Nature 401, 1999.
 """
 
+import math
+
 from shoal.core.draws import uniform
 from shoal.core.kernel import kernel
 from shoal.world.targets.moves import advance_straight, any_heading
@@ -13,17 +15,16 @@ def begin_leg(target, draw):
     """Draw a heading and a length, by inversion of its distribution."""
     any_heading(target, draw)
     chance = uniform(draw, 3)
-    if target.exponent == 1.0:
-        target.leg = target.shortest * (target.longest / target.shortest) ** chance
-    else:
-        power = 1.0 - target.exponent
-        low = target.shortest**power
-        target.leg = (low + chance * (target.longest**power - low)) ** (1.0 / power)
+    span = math.log(target.longest / target.shortest)
+    power = 1.0 - target.exponent
+    # (1 + chance ((longest / shortest)^power - 1))^(1 / power), by logarithms: powers would overflow or cancel
+    steps = math.log1p(chance * math.expm1(power * span)) / power if power != 0.0 else chance * span
+    target.leg = target.shortest * math.exp(steps)
 
 
 @kernel
 def go_leg(target, time_step, draw):
-    """Go on; a new leg begins where the old one ends."""
+    """Go on; a new leg begins at the end of the step in which the old one ends."""
     way = target.speed * time_step
     advance_straight(target, way)
     target.leg -= way

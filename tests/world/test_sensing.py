@@ -1,0 +1,119 @@
+"""Who detects a target."""
+
+import numpy as np
+import pytest
+
+from coasting import coasting
+from scenarios import fleets, scenario
+from shoal.simulation import Simulation
+
+STAY = [(0.0, 0.0)] * 3
+PLACES = [(0.0, 0.0), (9.0, 9.0), (9.0, -9.0)]
+
+
+def within(share, number, expected):
+    """Whether a share of so many draws is within 5 standard errors of what is expected."""
+    return abs(share - expected) < 5 * np.sqrt(expected * (1 - expected) / number)
+
+
+class TestRange:
+    """Sensor radius of the agent's fleet, plus the target's own."""
+
+    @pytest.mark.parametrize(("distance", "fast", "slow"), [(1.0, 1, 1), (1.4, 1, 1), (1.6, 1, 0), (3.1, 0, 0)])
+    def test_is_that_of_the_fleet(self, distance, fast, slow):
+        makes = fleets((1, 1.0), (1, 1.0))
+        makes[0]["sensor_radius"], makes[1]["sensor_radius"] = 2.0, 0.5
+        still = {"kind": "still", "radius": 1.0}
+        changes = {"fleets": makes, "network.neighbors": 1, "targets": [still]}
+        for agent, sees in enumerate((fast, slow)):
+            simulation = Simulation(scenario("oceans2020", changes))
+            simulation.swarm.x[:2], simulation.swarm.y[:2] = 9.0, 9.0
+            simulation.swarm.x[agent], simulation.swarm.y[agent] = distance, 0.0
+            simulation.advance(1)
+            assert simulation.tally.engaged.sum() == sees
+
+    def test_has_the_target_radius_in_it(self):
+        simulation = coasting(PLACES, STAY, targets=[(4.0, 0.0), (4.0, 0.0)])
+        simulation.targets["radius"] = 3.9, 4.0
+        simulation.advance(1)
+        assert simulation.tally.watched.sum(axis=0).tolist() == [0.0, 1.0]
+
+
+class TestDetection:
+    """A target within reach is noticed with the fleet's probability, in every step anew."""
+
+    @pytest.mark.parametrize("chance", [0.1, 0.5, 0.9])
+    def test_has_its_share(self, chance):
+        simulation = coasting(PLACES, STAY, steps=5000, **{"fleets.0.detection_probability": chance})
+        simulation.advance(5000)
+        assert within(simulation.tally.engaged.sum() / 5000, 5000, chance)
+
+    def test_of_several_agents_and_steps_is_independent(self):
+        """Two agents on a target: it is seen with 1 - (1 - p)^2; and one step says nothing about the next."""
+        places = [(0.0, 0.0), (0.5, 0.0), (9.0, 9.0)]
+        simulation = coasting(places, STAY, steps=5000, **{"fleets.0.detection_probability": 0.4})
+        frames = simulation.advance(5000, every=1)
+        assert within(simulation.tally.on_target.sum() / 5000, 5000, 1 - 0.6**2)
+        seen = frames.on_target[:, 0]
+        assert within((seen[1:] & seen[:-1]).mean(), 4999, 0.16)
+
+    def test_of_several_targets_is_independent(self):
+        simulation = coasting(
+            PLACES, STAY, targets=[(0.5, 0.0), (-0.5, 0.0)], steps=5000, **{"fleets.0.detection_probability": 0.4}
+        )
+        simulation.advance(5000)
+        watched = simulation.tally.watched.sum(axis=0)
+        assert all(within(each / 5000, 5000, 0.4) for each in watched)
+        assert within(simulation.tally.on_target.sum() / 5000, 5000, 1 - 0.6**2)
+
+    def test_of_0_is_blindness_and_of_1_the_paper(self):
+        blind = coasting(PLACES, STAY, **{"fleets.0.detection_probability": 0.0})
+        blind.advance(20)
+        assert blind.tally.engaged.sum() == 0
+        sure, plain = (
+            Simulation(scenario("oceans2020", changes))
+            for changes in ({"fleets.0.detection_probability": 1.0, "fleets.1.false_alarm_probability": 1e-18}, {})
+        )
+        sure.advance(300)
+        plain.advance(300)
+        assert sure.world.imperfect
+        assert sure.swarm.x.tobytes() == plain.swarm.x.tobytes()
+
+    def test_beyond_the_range_nothing_is_detected(self):
+        simulation = coasting([(1.1, 0.0), *PLACES[1:]], STAY, **{"fleets.0.detection_probability": 0.9})
+        simulation.advance(20)
+        assert simulation.tally.engaged.sum() == 0
+
+
+class TestFalseAlarms:
+    """An agent reports a target that is not there: others believe it, the metrics do not."""
+
+    def test_set_on_target_in_their_share(self):
+        simulation = coasting([(9, 9), (9, -9), (-9, 9)], STAY, steps=4000, **{"fleets.0.false_alarm_probability": 0.2})
+        frames = simulation.advance(4000, every=1)
+        assert within(frames.on_target.mean(), 12000, 0.2)
+
+    def test_count_as_nobodys_watch(self):
+        simulation = coasting([(9, 9), (9, -9), (-9, 9)], STAY, **{"fleets.0.false_alarm_probability": 1.0})
+        simulation.advance(20)
+        tally = simulation.tally
+        assert simulation.swarm.on_target[:3].all()
+        assert (tally.engaged.sum(), tally.on_target.sum(), tally.watched.sum()) == (0, 0, 0)
+        assert tally.undetected.sum() == 20
+
+    def test_draw_the_others(self):
+        """The paper's swarm gathers around a buoy that cries wolf."""
+        makes = fleets((1, 1e-3), (20, 2.0))
+        makes[0]["false_alarm_probability"] = 1.0
+        changes = {"fleets": makes, "network.neighbors": "all", "targets.0.radius": 0.0}
+        simulation = Simulation(scenario("oceans2020", changes))
+        swarm = simulation.swarm
+        before = np.hypot(swarm.x[1:21] - swarm.x[0], swarm.y[1:21] - swarm.y[0]).mean()
+        simulation.advance(300)
+        assert np.hypot(swarm.x[1:21] - swarm.x[0], swarm.y[1:21] - swarm.y[0]).mean() < before / 2
+
+    def test_are_raised_while_the_target_is_down_too(self):
+        simulation = coasting([(9, 9), (9, -9), (-9, 9)], STAY, **{"fleets.0.false_alarm_probability": 1.0})
+        simulation.targets["present"] = 0
+        simulation.advance(5)
+        assert simulation.swarm.on_target[:3].all()
