@@ -43,8 +43,8 @@ def priority(me, other, params):
     """The freshest sighting first, being on target freshest of all; of equal ones the nearest."""
     dx = me.x - other.x
     dy = me.y - other.y
-    fresh = other.told.sighting_time + (2.0 * me.time_step if other.on_target else 0.0)
-    return dx * dx + dy * dy - _SECOND * fresh
+    age = 0.0 if other.on_target else me.time - other.told.sighting_time
+    return dx * dx + dy * dy + _SECOND * age
 
 
 def influence(me, other, params):
@@ -53,7 +53,7 @@ def influence(me, other, params):
 
 
 def decide(me, heard, memory, params, draw):
-    """k-nearest PSO toward the freshest sighting that the network knows of.
+    """k-nearest PSO toward the freshest sighting known.
 
     v <- omega v + (c r (sighting - x) + repulsion) / dt while the sighting is younger than max_age
     """
