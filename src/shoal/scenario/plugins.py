@@ -12,7 +12,7 @@ from shoal.strategies import CATALOGUE, Strategy
 
 
 def load_strategies(choice: Any) -> Any:
-    """Load what a [strategy] table, or a name, needs: its file or its package; return it with name and source filled in.
+    """Load the file or package that a [strategy] table, or a name, needs; return it, of a file with name and source.
 
     Raises
     ------

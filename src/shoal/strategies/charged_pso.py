@@ -18,7 +18,7 @@ class ChargedPso(NamedTuple):
 
     inertia: Annotated[float, Says("omega: share of the velocity kept from one step to the next")] = 0.7
     social: Annotated[float, Says("c: largest share of the way to the leader wanted in one step")] = 0.5
-    charge: Annotated[Meters, Says("q, Q^2 = q^3: two charges this far apart push each other this far in a step")] = 0.63
+    charge: Annotated[Meters, Says("q: two charges this far apart push each other this far in a step")] = 0.63
     core: Annotated[Meters, Says("p_core: nearer ones push no harder than at this distance")] = 0.3
     perception: Annotated[Meters, Says("p: those farther away do not push")] = 4.0
 

@@ -42,14 +42,12 @@ def adapted(repulsion, contact, low, high, grow, shrink):
 
 @kernel
 def turned_from_walls(me, heading):
-    """A heading [rad] that leads back inside where the agent is at the edge of where it may go."""
-    vx = math.cos(heading)
-    vy = math.sin(heading)
-    if abs(me.x) >= me.briefing.half_x and vx * me.x > 0.0:
-        vx = -vx
-    if abs(me.y) >= me.briefing.half_y and vy * me.y > 0.0:
-        vy = -vy
-    return math.atan2(vy, vx)
+    """The heading [rad], mirrored where it would lead out of the area that the agent is at the edge of."""
+    if abs(me.x) >= me.briefing.half_x and me.x * math.cos(heading) > 0.0:
+        heading = math.pi - heading
+    if abs(me.y) >= me.briefing.half_y and me.y * math.sin(heading) > 0.0:
+        heading = -heading
+    return heading
 
 
 @kernel

@@ -3,7 +3,8 @@
 Blackboard-like memory of the swarm as Kwa, Leong Kit and Bouffanais discuss for evasive targets ("Balancing Collective
 Exploration and Exploitation in Multi-Agent and Multi-Robot Systems: A Review", Frontiers in Robotics and AI 8, 2022,
 on memory); gossip of the freshest entry as in Demers et al., "Epidemic algorithms for replicated database
-maintenance", PODC 1987 (last write wins by time stamp). The rest is knn-pso.
+maintenance", PODC 1987 (last write wins by time stamp). The rest is knn-pso. A neighbor on target is a sighting of the
+step in which its report arrives: with a delayed radio, stamps are as late.
 """
 
 from typing import Annotated, NamedTuple
