@@ -52,7 +52,12 @@ def strategies(*, json_: Annotated[bool, Parameter(name="--json", negative=())] 
         ]
         sys.stdout.write(json.dumps(rows) + "\n")
     else:
-        _print_rows([(each.name, f"{escape(each.summary)}\n[dim]{escape(each.reference)}[/dim]") for each in known])
+        _print_rows(
+            [
+                (each.name, f"{escape(each.summary)}\n[dim]{escape(each.reference or each.source)}[/dim]")
+                for each in known
+            ]
+        )
 
 
 def _print_rows(rows: list[tuple[str, str]]) -> None:

@@ -50,8 +50,8 @@ def _write(texts: dict[Path, str]) -> None:
                 written.append(file)
                 stream.write(text)
     except OSError as error:
-        for file in written:
-            file.unlink()
+        for half in written:
+            half.unlink()
         if isinstance(error, FileExistsError):
             raise StrategyError(str(file), "exists already", "choose another name or folder") from None
         raise StrategyError(str(file), f"cannot be written: {error.strerror}", "choose another folder") from None

@@ -31,14 +31,15 @@ def load_strategies(choice: Any) -> Any:
     return choice
 
 
-def find_strategy(name: str, source: str | None = None) -> Strategy | None:
+def find_strategy(name: str, source: object = None) -> Strategy | None:
     """The strategy of a name: the one that a file of this source defines, or else the catalogue's or a package's.
 
     Raises
     ------
     StrategyError : an installed package offers it and fails to import
     """
-    return _LOADED.get(source or "", {}).get(name) or CATALOGUE.get(name) or load_installed(name)
+    loaded = _LOADED.get(source, {}) if isinstance(source, str) else {}
+    return loaded.get(name) or CATALOGUE.get(name) or load_installed(name)
 
 
 def source_of(known: Strategy) -> str | None:
