@@ -20,7 +20,7 @@ class SharedSighting(NamedTuple):
 
     inertia: Annotated[float, Says("omega: share of the velocity kept from one step to the next")] = 1.0
     social: Annotated[float, Says("c: largest share of the way to the sighting wanted in one step")] = 0.5
-    max_age: Annotated[Seconds, Says("an older sighting attracts nobody")] = 2.0
+    max_age: Annotated[Seconds, Says("an older sighting attracts nobody; 3 m/s leave a reach of 1 m in 0.33 s")] = 0.3
     repulsion_start: Annotated[Meters, Says("a_R at the start")] = 0.5013256549262001
     repulsion_min: Annotated[Meters, Says("a_R shrinks while above this and a sighting is fresh")] = 0.375
     repulsion_max: Annotated[Meters, Says("a_R grows while below this and none is")] = 1.5
