@@ -1,12 +1,11 @@
 """A strategy is one plain function in a file of the user's; it runs like our own."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from scenarios import fleets, scenario
+from scenarios import scenario
 from shoal.core.errors import ScenarioError, StrategyError
 from shoal.metrics.summary import evaluate
 from shoal.scenario.load import load, scenario_from, to_toml
@@ -277,33 +276,3 @@ class TestErrors:
     def test_a_file_that_fails_leaves_no_strategy_behind(self, tmp_path):
         refusal(tmp_path, DRIFTER + "\n1 / 0\n")
         assert "drifter" not in CATALOGUE
-
-
-BUILT_IN = sorted(name for name, known in CATALOGUE.items() if known.builtin)
-
-
-@pytest.mark.parametrize("name", BUILT_IN)
-class TestEveryBuiltIn:
-    """Whatever the catalogue holds."""
-
-    def test_is_finite_below_the_top_speed_and_repeats_its_bits(self, name):
-        makes = {"fleets": fleets((7, 2.6), (9, 1.0)), "network.neighbors": 6}
-        chosen = scenario("oceans2020", {"strategy": {"name": name}, **makes})
-        ends = []
-        for chunks in ((500,), (1, 499)):
-            simulation = Simulation(chosen)
-            for chunk in chunks:
-                simulation.advance(chunk)
-                swarm = simulation.swarm
-                assert np.isfinite([swarm.x, swarm.y, swarm.vx, swarm.vy]).all()
-                assert (
-                    np.hypot(swarm.command_x[:16], swarm.command_y[:16]) <= swarm.max_speed[:16] * (1 + 1e-12)
-                ).all()
-            ends.append(swarm.x.tobytes())
-        assert ends[0] == ends[1]
-
-    def test_says_what_it_is(self, name):
-        known = CATALOGUE[name]
-        assert known.summary
-        assert Path(known.source).is_file()
-        assert all(known.memory.values())

@@ -56,12 +56,11 @@ def scenario_from(table: Mapping[str, Any], *, where: str = "scenario", text: st
     Raises
     ------
     ScenarioError : unknown, missing or wrong fields
-    StrategyError : the strategy's file cannot be loaded
+    StrategyError : the strategy's file or package cannot be loaded
     """
     table = dict(table)
-    chosen = table.get("strategy")
-    if isinstance(chosen, dict) and isinstance(chosen.get("file"), str):
-        table["strategy"] = load_strategies(chosen)
+    if "strategy" in table:
+        table["strategy"] = load_strategies(table["strategy"])
     if isinstance(table.get("fleets"), (list, tuple)):
         table["fleets"] = [_with_own_strategy(fleet) for fleet in table["fleets"]]
     try:
@@ -74,10 +73,9 @@ def scenario_from(table: Mapping[str, Any], *, where: str = "scenario", text: st
 
 
 def _with_own_strategy(fleet: Any) -> Any:
-    """A fleet's table, its strategy's file loaded."""
-    chosen = fleet.get("strategy") if isinstance(fleet, Mapping) else None
-    if isinstance(chosen, dict) and isinstance(chosen.get("file"), str):
-        return {**fleet, "strategy": load_strategies(chosen)}
+    """A fleet's table, its strategy's file or package loaded."""
+    if isinstance(fleet, Mapping) and fleet.get("strategy") is not None:
+        return {**fleet, "strategy": load_strategies(fleet["strategy"])}
     return fleet
 
 

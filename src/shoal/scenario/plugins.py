@@ -1,4 +1,4 @@
-"""A user's strategy: a Python file that uses @shoal.strategy, loaded by path."""
+"""A user's strategy: a Python file that uses @shoal.strategy, loaded by path, or one of an installed package."""
 
 import hashlib
 import importlib.util
@@ -7,11 +7,49 @@ from pathlib import Path
 from typing import Any
 
 from shoal.core.errors import StrategyError
+from shoal.scenario.installed import load_installed
 from shoal.strategies import CATALOGUE, Strategy
 
 
-def load_strategies(choice: dict[str, Any]) -> dict[str, Any]:
-    """Load the file that a [strategy] table names; return the table with name and hash of the source filled in.
+def load_strategies(choice: Any) -> Any:
+    """Load the file or package that a [strategy] table, or a name, needs; return it, of a file with name and source.
+
+    Raises
+    ------
+    StrategyError : the file or package cannot be loaded, or is not the one that the table was made with
+    """
+    if isinstance(choice, dict) and isinstance(choice.get("file"), str):
+        return _load_file(choice)
+    table = choice if isinstance(choice, dict) else {"name": choice}
+    known = find_strategy(str(table.get("name")), table.get("source"))
+    if known and table.get("source") not in (None, source_of(known)):
+        raise StrategyError(
+            known.source,
+            f"strategy {known.name!r} is not the version that this scenario was made with",
+            "install that one, or drop `source` to use this one anyway",
+        )
+    return choice
+
+
+def find_strategy(name: str, source: object = None) -> Strategy | None:
+    """The strategy of a name: the one that a file of this source defines, or else the catalogue's or a package's.
+
+    Raises
+    ------
+    StrategyError : an installed package offers it and fails to import
+    """
+    loaded = _LOADED.get(source, {}) if isinstance(source, str) else {}
+    return loaded.get(name) or CATALOGUE.get(name) or load_installed(name)
+
+
+def source_of(known: Strategy) -> str | None:
+    """First 16 hex digits of a hash over the file that defines a user's strategy; None of a built-in or typed one."""
+    path = Path(known.source)
+    return None if known.builtin or not path.is_file() else _hash(path.read_bytes())
+
+
+def _load_file(choice: dict[str, Any]) -> dict[str, Any]:
+    """Execute the file that a table names.
 
     Raises
     ------
@@ -25,7 +63,7 @@ def load_strategies(choice: dict[str, Any]) -> dict[str, Any]:
         text = path.read_bytes()
     except OSError as error:
         raise StrategyError(str(path), f"cannot be read: {error.strerror}", "name a Python file") from None
-    source = hashlib.sha256(text).hexdigest()[:16]
+    source = _hash(text)
     if choice.get("source") not in (None, source):
         raise StrategyError(
             str(path),
@@ -39,9 +77,8 @@ def load_strategies(choice: dict[str, Any]) -> dict[str, Any]:
     return {**choice, "name": name, "source": source}
 
 
-def find_strategy(name: str, source: str | None = None) -> Strategy | None:
-    """The strategy of a name: the one that a file of this source defines, or else the catalogue's."""
-    return _LOADED.get(source or "", {}).get(name) or CATALOGUE.get(name)
+def _hash(text: bytes) -> str:
+    return hashlib.sha256(text).hexdigest()[:16]
 
 
 _LOADED: dict[str, dict[str, Strategy]] = {}  # by source: a file is executed once per version

@@ -9,7 +9,8 @@ from pydantic import ValidationError as PydanticError
 from pydantic_core import PydanticCustomError, core_schema
 
 from shoal.core.units import Choice, Says, Unit
-from shoal.scenario.plugins import find_strategy
+from shoal.scenario.installed import installed_names, load_all_installed
+from shoal.scenario.plugins import find_strategy, source_of
 from shoal.strategies import CATALOGUE, Strategy
 
 
@@ -19,7 +20,7 @@ class StrategyChoice:
     Attributes
     ----------
     owner : the strategy itself; name : what it is called
-    file : the user's Python file that defines it, or None; source : hash of that file's text
+    file : the user's Python file that defines it, or None; source : hash of its text, or of an installed package's file
     params : {parameter: value}, words for choices
     """
 
@@ -32,8 +33,8 @@ class StrategyChoice:
 
     def flat(self) -> dict[str, Any]:
         """The table as a scenario file spells it."""
-        loaded = {"file": self.file, "source": self.source} if self.file else {}
-        return {"name": self.name, **loaded, **self.params}
+        loaded = {"file": self.file, "source": self.source}
+        return {"name": self.name, **{key: text for key, text in loaded.items() if text}, **self.params}
 
     def kernel_params(self) -> Any:
         """The strategy's NamedTuple of parameters: words become their index, numbers the type of the default."""
@@ -56,7 +57,7 @@ class StrategyChoice:
 
     @classmethod
     def validate(cls, value: Any) -> "StrategyChoice":
-        """Return the choice that a table describes; the strategy's file must have been loaded before."""
+        """Return the choice that a table describes; see `load_strategies` for files and packages."""
         if isinstance(value, cls):
             return value
         if isinstance(value, str):
@@ -67,9 +68,10 @@ class StrategyChoice:
         file, source = table.pop("file", None), table.pop("source", None)
         owner = find_strategy(str(table["name"]), source)
         if owner is None:
-            raise PydanticCustomError(
-                "strategy_name", "unknown strategy; there are: {known}", {"known": ", ".join(sorted(CATALOGUE))}
-            )
+            known = ", ".join(sorted({*CATALOGUE, *installed_names()}))
+            raise PydanticCustomError("strategy_name", "unknown strategy; there are: {known}", {"known": known})
+        if file is None:
+            source = source_of(owner)
         filled = params_model(owner)(**table).model_dump(exclude={"name"})
         return cls(owner, file, source, filled)
 
@@ -89,6 +91,7 @@ class StrategyChoice:
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> dict[str, Any]:
+        load_all_installed()
         known = [CATALOGUE[name] for name in sorted(CATALOGUE)]
         names = {"type": "string", "enum": [each.name for each in known]}
         from_file = {"type": "object", "properties": {"file": {"type": "string"}}, "required": ["file"]}

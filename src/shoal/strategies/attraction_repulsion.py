@@ -38,7 +38,7 @@ def influence(me, other, params):
 
 
 def decide(me, heard, memory, params, draw):
-    """Local PSO with an attraction-repulsion equilibrium between neighbors (after Coquet et al. 2019).
+    """Local PSO whose agents keep an equilibrium distance.
 
     v <- omega v + (c r (Nbest - x) + sum_j (b / (1 + r_ij^2 / w)^2 - a) (x_i - x_j)) / dt
     with w = r_eq^2 / (sqrt(b / a) - 1)

@@ -1,7 +1,8 @@
 """Charged PSO: particles that repel each other like charges, so that the swarm never collapses.
 
 Blackwell and Bentley, "Dynamic search with charged swarms", GECCO 2002: a_i = sum_j Q_i Q_j / r_ij^3 (x_i - x_j) for
-p_core <= r_ij <= p, the strength at the core inside it, nothing beyond the perception limit p.
+p_core <= r_ij <= p, the strength at the core inside it, nothing beyond the perception limit p. All are charged alike;
+the attraction is to the neighborhood's best only, for a personal best is a place where the target is no more.
 """
 
 import math
@@ -17,7 +18,7 @@ class ChargedPso(NamedTuple):
 
     inertia: Annotated[float, Says("omega: share of the velocity kept from one step to the next")] = 0.7
     social: Annotated[float, Says("c: largest share of the way to the leader wanted in one step")] = 0.5
-    charge: Annotated[float, Says("Q^2: way in one step at 1 m from one other charge [m^3]")] = 0.25
+    charge: Annotated[Meters, Says("q: two charges this far apart push each other this far in a step")] = 0.63
     core: Annotated[Meters, Says("p_core: nearer ones push no harder than at this distance")] = 0.3
     perception: Annotated[Meters, Says("p: those farther away do not push")] = 4.0
 
@@ -33,12 +34,13 @@ def influence(me, other, params):
 
 
 def decide(me, heard, memory, params, draw):
-    """Charged PSO: attraction to the neighbor on target, Coulomb repulsion between all (Blackwell, Bentley 2002).
+    """PSO of particles that repel each other like charges.
 
-    v <- omega v + (c r (Nbest - x) + Q^2 sum_j (x_i - x_j) / (max(r_ij, p_core)^2 r_ij)) / dt
+    v <- omega v + (c r (Nbest - x) + q^3 sum_j (x_i - x_j) / (max(r_ij, p_core)^2 r_ij)) / dt
     """
-    step_x = params.charge * heard.sum_x
-    step_y = params.charge * heard.sum_y
+    square_charge = params.charge * params.charge * params.charge
+    step_x = square_charge * heard.sum_x
+    step_y = square_charge * heard.sum_y
     if heard.found and not me.on_target:
         share = params.social * uniform(draw, 0)
         step_x += share * (heard.x - me.x)

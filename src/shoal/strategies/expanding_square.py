@@ -1,16 +1,17 @@
 """Expanding-square search: each agent spirals outward from the middle of its own part of the area, and starts again.
 
 IAMSAR Manual, vol. II (IMO/ICAO), chapter 5: expanding square (SS): legs of d, d, 2d, 2d, 3d, 3d ... with a right turn
-after each, d the track spacing. The parts are strips as in parallel-track, cut in pieces that are nearly square where a
-strip is narrow: the datum of an agent is its station. By the book: who sees a target carries on.
+after each, d the track spacing, until the square is as large as the agent's part, which is as large as its share of the
+summed top speeds; one round at least. By the book: who sees a target carries on.
 """
 
+import math
 from typing import Annotated, NamedTuple
 
 from shoal.core.kernel import kernel
 from shoal.core.units import Says
 from shoal.strategies.contract import strategy
-from shoal.strategies.parts import inside, station, toward, way_point_reached
+from shoal.strategies.parts import inside, middle_of_part, size_of_part, toward, way_point_reached
 
 
 class ExpandingSquare(NamedTuple):
@@ -21,33 +22,34 @@ class ExpandingSquare(NamedTuple):
 
 def begin(me, memory, params, draw):
     """The datum: the middle of the agent's part."""
-    memory.datum_x, memory.datum_y = station(me.id, me.briefing.agents, me.briefing.half_x, me.briefing.half_y)
+    memory.datum_x, memory.datum_y = middle_of_part(me)
     memory.leg = 0.0
 
 
 def decide(me, heard, memory, params, draw):
-    """Expanding squares around a datum of its own (IAMSAR Manual, vol. II)."""
-    step = 2.0 * me.briefing.reach * params.spacing
+    """Square spirals, each around a datum of its own."""
+    spacing = max(2.0 * me.briefing.reach * params.spacing, 1e-2 * me.briefing.half_x)
     x, y = corner(memory.leg)
-    side = 2.0 * (me.briefing.half_x * me.briefing.half_y * part(me)) ** 0.5
-    goal_x, goal_y = inside(me, memory.datum_x + step * x, memory.datum_y + step * y)
+    goal_x, goal_y = inside(me, memory.datum_x + spacing * x, memory.datum_y + spacing * y)
     if way_point_reached(me, goal_x, goal_y):
-        far = max(abs(x), abs(y)) * step > 0.5 * side
-        memory.leg = 0.0 if far else memory.leg + 1.0
+        memory.leg = (memory.leg + 1.0) % (4.0 * rounds(math.sqrt(size_of_part(me)), spacing) + 2.0)
         x, y = corner(memory.leg)
-        goal_x, goal_y = inside(me, memory.datum_x + step * x, memory.datum_y + step * y)
+        goal_x, goal_y = inside(me, memory.datum_x + spacing * x, memory.datum_y + spacing * y)
     return toward(me, goal_x, goal_y)
 
 
 @kernel
-def part(me):
-    """Share of the area that is the agent's, by speed."""
-    return me.briefing.share_end - me.briefing.share_begin
+def rounds(side, spacing):
+    """Rounds whose tracks, each seen half a spacing wide to both sides, cover a square of this side; one at least."""
+    return max(1.0, math.ceil(0.5 * (side / spacing - 1.0)))
 
 
 @kernel
 def corner(leg):
-    """Corner number `leg` of the square spiral, in track spacings from the datum: legs of 1, 1, 2, 2, 3, 3 ..."""
+    """Corner number `leg` of the square spiral, in track spacings from the datum: legs of 1, 1, 2, 2, 3, 3 ...
+
+    Round m ends with corner 4 m + 1, when all four sides of the square of side 2 m have been gone along.
+    """
     x = 0.0
     y = 0.0
     for number in range(int(leg)):

@@ -19,7 +19,7 @@ class GlobalPso(NamedTuple):
 
 
 def decide(me, heard, memory, params, draw):
-    """Plain global-best PSO: all-to-all, no repulsion (Kennedy, Eberhart 1995).
+    """Plain global-best PSO: all-to-all, no repulsion.
 
     v <- omega v + c r (Gbest - x) / dt
     """

@@ -25,7 +25,7 @@ def begin(me, memory, params, draw):
 
 
 def decide(me, heard, memory, params, draw):
-    """Motionless lattice: go to a place of an even cover, and stay."""
+    """Motionless: everybody goes to a place of an even cover."""
     return toward(me, memory.station_x, memory.station_y)
 
 

@@ -1,25 +1,24 @@
 """Informed reference: a lattice whose agents meet the known target on its known way.
 
-Breaks the information rule: every agent is told where the target is, how it moves and to which waypoint. An agent goes
-to the point of that way nearest in time that it can reach before the target has passed (constant-bearing interception,
+Breaks the information rule: every agent is told where the target is, how fast, and to which waypoint it moves. An agent
+goes to the first point of that way where it can be within its sensor's reach in time (constant-bearing interception:
 Isaacs, "Differential Games", Wiley 1965), if that point is near its station; else home.
 """
 
 import math
 from typing import Annotated, NamedTuple
 
+from shoal.core.kernel import kernel
 from shoal.core.units import Meters, Says
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import station, toward
-
-_POINTS = 16  # of the target's way that are tried
 
 
 class LatticeIntercept(NamedTuple):
     """Parameters."""
 
     spread: Annotated[float, Says("the lattice covers this share of the sides that agents may go to")] = 0.82
-    reach: Annotated[Meters, Says("a meeting point nearer to the station than this is gone to")] = 3.0
+    reach: Annotated[Meters, Says("a meeting point nearer to the station than this is gone to")] = 2.4
 
 
 def begin(me, memory, params, draw):
@@ -30,24 +29,47 @@ def begin(me, memory, params, draw):
 
 
 def decide(me, heard, memory, params, draw):
-    """KNOWS THE TARGET AND ITS WAY: a lattice that intercepts it (a reference, not a strategy for buoys)."""
+    """KNOWS THE TARGET'S WAY: a lattice that intercepts it.
+
+    meets at target + u t, with the first t >= 0 for which |target + u t - x| <= v t + sensor reach
+    """
     truth = me.truth
     speed = math.sqrt(truth.vx * truth.vx + truth.vy * truth.vy)
     way_x = truth.goal_x - truth.x
     way_y = truth.goal_y - truth.y
     way = math.sqrt(way_x * way_x + way_y * way_y)
-    for number in range(_POINTS):
-        share = number / (_POINTS - 1.0)
-        x = truth.x + share * way_x
-        y = truth.y + share * way_y
+    bound = way > 0.0  # else it has no waypoint: straight on, as far as anybody knows
+    vx = speed * way_x / way if bound else truth.vx
+    vy = speed * way_y / way if bound else truth.vy
+    time = meeting_time(truth.x - me.x, truth.y - me.y, vx, vy, me.max_speed, me.briefing.reach)
+    if truth.present and (not bound or time * speed <= way):
+        x = truth.x + time * vx
+        y = truth.y + time * vy
         dx = x - memory.station_x
         dy = y - memory.station_y
-        mine = math.sqrt((x - me.x) * (x - me.x) + (y - me.y) * (y - me.y))
-        in_time = mine * speed <= (share * way + me.briefing.reach) * me.max_speed
-        if truth.present and in_time and dx * dx + dy * dy < params.reach * params.reach:
+        if dx * dx + dy * dy < params.reach * params.reach:
             return toward(me, x, y)
     return toward(me, memory.station_x, memory.station_y)
 
+
+@kernel
+def meeting_time(dx, dy, vx, vy, speed, reach):
+    """First time at which who moves at `speed` can be within reach of a target dx, dy away with velocity vx, vy [s].
+
+    The smaller positive root of (u^2 - v^2) t^2 + 2 (d.u - v reach) t + d^2 - reach^2 = 0; 1e9 if there is none.
+    """
+    constant = dx * dx + dy * dy - reach * reach
+    if constant <= 0.0:
+        return 0.0
+    half = dx * vx + dy * vy - speed * reach
+    discriminant = half * half - (vx * vx + vy * vy - speed * speed) * constant
+    if discriminant < 0.0:
+        return _NEVER
+    below = math.sqrt(discriminant) - half
+    return constant / below if below > 0.0 else _NEVER
+
+
+_NEVER = 1e9  # [s]
 
 strategy(
     "lattice-intercept",

@@ -25,7 +25,7 @@ def begin(me, memory, params, draw):
 
 
 def decide(me, heard, memory, params, draw):
-    """KNOWS THE TARGET: a lattice that pursues it near every station (a reference, not a strategy for buoys)."""
+    """KNOWS THE TARGET: a lattice that pursues it nearby."""
     dx = me.truth.x - memory.station_x
     dy = me.truth.y - memory.station_y
     if me.truth.present and dx * dx + dy * dy < params.reach * params.reach:

@@ -16,7 +16,7 @@ from shoal.strategies.parts import turned_from_walls
 class LevyWalk(NamedTuple):
     """Parameters."""
 
-    exponent: Annotated[float, Says("mu: P(l) ~ l^-mu, more than 1")] = 2.0
+    exponent: Annotated[float, Says("mu: P(l) ~ l^-mu; 1 is nearly straight, 3 nearly Brownian")] = 2.0
     shortest: Annotated[Meters, Says("shortest leg")] = 1.0
     longest: Annotated[Meters, Says("longest leg")] = 20.0
 
@@ -28,7 +28,7 @@ def begin(me, memory, params, draw):
 
 
 def decide(me, heard, memory, params, draw):
-    """Levy walk: legs of power-law length in random directions (Viswanathan et al. 1999)."""
+    """Levy walk: legs of power-law length, in any direction."""
     if memory.leg <= 0.0:
         memory.heading = 2.0 * math.pi * uniform(draw, 0)
         memory.leg = leg_length(uniform(draw, 1), params.exponent, params.shortest, params.longest)

@@ -42,14 +42,12 @@ def adapted(repulsion, contact, low, high, grow, shrink):
 
 @kernel
 def turned_from_walls(me, heading):
-    """A heading [rad] that leads back inside where the agent is at the edge of where it may go."""
-    vx = math.cos(heading)
-    vy = math.sin(heading)
-    if abs(me.x) >= me.briefing.half_x and vx * me.x > 0.0:
-        vx = -vx
-    if abs(me.y) >= me.briefing.half_y and vy * me.y > 0.0:
-        vy = -vy
-    return math.atan2(vy, vx)
+    """The heading [rad], mirrored where it would lead out of the area that the agent is at the edge of."""
+    if abs(me.x) >= me.briefing.half_x and me.x * math.cos(heading) > 0.0:
+        heading = math.pi - heading
+    if abs(me.y) >= me.briefing.half_y and me.y * math.sin(heading) > 0.0:
+        heading = -heading
+    return heading
 
 
 @kernel
@@ -80,11 +78,11 @@ def inside(me, x, y):
 def station(i, agents, half_x, half_y):
     """Place of agent i in the most even cover of a box of +- half_x, half_y by rows [m].
 
-    Rows are as many as make cells nearly square, and differ by one agent at most. Agents go to every so many-th place,
-    so that a fleet, whose ids follow each other, is spread over the whole box.
+    Rows differ by one agent at most. Agents go to every so many-th place, so that a fleet, whose ids follow each other,
+    is spread over the whole box.
     """
     place = (i * _stride(agents)) % agents
-    rows = max(1, min(agents, int(math.sqrt(agents * half_y / half_x) + 0.5)))
+    rows = rows_of(agents, half_x, half_y)
     row = (place * rows) // agents
     while (agents * (row + 1)) // rows <= place:
         row += 1
@@ -93,6 +91,38 @@ def station(i, agents, half_x, half_y):
     x = half_x * ((2.0 * (place - first) + 1.0) / count - 1.0)
     y = half_y * ((2.0 * row + 1.0) / rows - 1.0)
     return x, y
+
+
+@kernel
+def rows_of(agents, half_x, half_y):
+    """Number of rows of a box of +- half_x, half_y [m] that makes the agents' parts nearly square."""
+    return max(1, min(agents, int(math.sqrt(agents * half_y / half_x) + 0.5)))
+
+
+@kernel
+def on_snake(me, share):
+    """The point `share` (0 to 1) of the way along the snake that the area is divided by, in the middle of its row [m].
+
+    The area is cut into rows, and a snake runs through them, east in the first and back west in the next. An agent's
+    part is a piece of the snake as long as its share of the summed top speeds: all parts are searched equally fast.
+    """
+    rows = rows_of(me.briefing.agents, me.briefing.half_x, me.briefing.half_y)
+    row = min(int(share * rows), rows - 1)
+    along = 2.0 * (share * rows - row) - 1.0
+    x = me.briefing.half_x * (along if row % 2 == 0 else -along)
+    return x, me.briefing.half_y * ((2.0 * row + 1.0) / rows - 1.0)
+
+
+@kernel
+def middle_of_part(me):
+    """The middle of the agent's part of the snake [m]."""
+    return on_snake(me, 0.5 * (me.briefing.share_begin + me.briefing.share_end))
+
+
+@kernel
+def size_of_part(me):
+    """Area of the agent's part [m^2]."""
+    return 4.0 * me.briefing.half_x * me.briefing.half_y * (me.briefing.share_end - me.briefing.share_begin)
 
 
 @kernel

@@ -14,7 +14,7 @@ class Pursuit(NamedTuple):
 
 
 def decide(me, heard, memory, params, draw):
-    """KNOWS THE TARGET: everybody runs straight to it (a reference, not a strategy for buoys)."""
+    """KNOWS THE TARGET: everybody runs straight to it."""
     if me.truth.present:
         return toward(me, me.truth.x, me.truth.y)
     return 0.0, 0.0

@@ -25,7 +25,7 @@ def begin(me, memory, params, draw):
 
 
 def decide(me, heard, memory, params, draw):
-    """Persistent random walk (Kareiva, Shigesada 1983).
+    """Persistent random walk.
 
     heading <- heading + sqrt(2 dt / persistence) N(0, 1)
     """

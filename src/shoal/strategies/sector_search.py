@@ -1,8 +1,9 @@
 """Sector search: each agent crosses its datum again and again, in triangles turned against each other.
 
-IAMSAR Manual, vol. II (IMO/ICAO), chapter 5: sector search (VS): legs of one radius, turns of 120 degrees to the right,
-so that three triangles meet in the datum; the next pattern is turned by 30 degrees. The radius covers the agent's part
-of the area, which is as large as its share of the summed top speeds. By the book: who sees a target carries on.
+IAMSAR Manual, vol. II (IMO/ICAO), chapter 5: sector search (VS): legs of one radius out of the datum, across and back
+through it, turns of 120 degrees to the right, so that three triangles meet in the datum; the next pattern is turned by
+30 degrees. The disc is as large as the agent's part of the area, which is its share of the summed top speeds; at the
+edge of the area it is cut off. By the book: who sees a target carries on.
 """
 
 import math
@@ -11,7 +12,7 @@ from typing import Annotated, NamedTuple
 from shoal.core.kernel import kernel
 from shoal.core.units import Says
 from shoal.strategies.contract import strategy
-from shoal.strategies.parts import inside, station, toward, way_point_reached
+from shoal.strategies.parts import inside, middle_of_part, size_of_part, toward, way_point_reached
 
 
 class SectorSearch(NamedTuple):
@@ -22,14 +23,13 @@ class SectorSearch(NamedTuple):
 
 def begin(me, memory, params, draw):
     """The datum: the middle of the agent's part."""
-    memory.datum_x, memory.datum_y = station(me.id, me.briefing.agents, me.briefing.half_x, me.briefing.half_y)
+    memory.datum_x, memory.datum_y = middle_of_part(me)
     memory.leg = 0.0
 
 
 def decide(me, heard, memory, params, draw):
-    """Sector search around a datum of its own (IAMSAR Manual, vol. II)."""
-    share = me.briefing.share_end - me.briefing.share_begin
-    radius = params.size * math.sqrt(4.0 * me.briefing.half_x * me.briefing.half_y * share / math.pi)
+    """Triangles through a datum of its own."""
+    radius = params.size * math.sqrt(size_of_part(me) / math.pi)
     x, y = corner(memory.leg)
     goal_x, goal_y = inside(me, memory.datum_x + radius * x, memory.datum_y + radius * y)
     if way_point_reached(me, goal_x, goal_y):
