@@ -79,8 +79,8 @@ def axes():
 
 
 def marks(axes, gid):
-    """The artists of axes that carry a name."""
-    return axes.findobj(lambda artist: artist.get_gid() == gid)
+    """The artists of axes that carry a name and are seen."""
+    return axes.findobj(lambda artist: artist.get_gid() == gid and artist.get_visible())
 
 
 @pytest.fixture(name="marks")

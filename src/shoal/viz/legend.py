@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shoal.record.record import Record
-from shoal.viz.style import INK, TARGET, fleet_color, fleet_marker
+from shoal.viz.style import GRAY, INK, TARGET, fleet_color, fleet_marker
 from shoal.viz.words import shorten
 
 if TYPE_CHECKING:
@@ -14,9 +14,10 @@ if TYPE_CHECKING:
 ROW = 0.18  # [inch] height of a row
 _LETTER, _SIGN = 0.056, 0.36  # [inch] width of a letter; of a sign and the space around it
 _LONGEST = 26  # letters of a name
+_HALO, _SENSOR = "repulsion a_R", "sensor"
 
 
-def draw_legend(axes: "Axes", record: Record) -> float:
+def draw_legend(axes: "Axes", record: Record, *, halos: bool = False, sensors: bool = False) -> float:
     """Name the signs of a snapshot above it; return the height taken [inch]."""
     from matplotlib.lines import Line2D
 
@@ -35,16 +36,22 @@ def draw_legend(axes: "Axes", record: Record) -> float:
         sign("on target", "o", markerfacecolor="white", markeredgecolor=INK, markeredgewidth=1.3, markersize=6)
     )
     signs.append(sign("target", "o", markerfacecolor=TARGET + "38", markeredgecolor=TARGET, markersize=8))
+    if halos:
+        face, edge = fleet_color(0) + "17", fleet_color(0) + "60"
+        signs.append(sign(_HALO, "o", markerfacecolor=face, markeredgecolor=edge, markersize=11))
+    if sensors:
+        signs.append(sign(_SENSOR, "o", markerfacecolor="none", markeredgecolor=GRAY, markersize=9))
+    labels = [str(each.get_label()) for each in signs]
     axes.legend(
-        handles=signs, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=_columns(_snapshot_labels(record), width),
+        handles=signs, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=_columns(labels, width),
         borderaxespad=0.2, borderpad=0.2,
     )  # fmt: skip
-    return legend_height(record, width)
+    return ROW * _rows(labels, width)
 
 
-def legend_height(record: Record, width: float) -> float:
+def legend_height(record: Record, width: float, *, halos: bool = False, sensors: bool = False) -> float:
     """Height of the legend above a snapshot of a width [inch]."""
-    labels = _snapshot_labels(record)
+    labels = [*_fleet_labels(record), "on target", "target", *[_HALO] * halos, *[_SENSOR] * sensors]
     return ROW * _rows(labels, width)
 
 
@@ -80,10 +87,6 @@ def short_name(name: str) -> str:
 def _fleet_labels(record: Record) -> list[str]:
     facts = record.facts
     return [f"{short_name(name)}, {speed:.3g} m/s" for name, speed in zip(facts.fleets, facts.max_speeds, strict=True)]
-
-
-def _snapshot_labels(record: Record) -> list[str]:
-    return [*_fleet_labels(record), "on target", "target"]
 
 
 def _columns(labels: list[str], width: float) -> int:
