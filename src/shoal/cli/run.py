@@ -105,10 +105,9 @@ def run(
     for each in record.provenance["notes"]:
         note(each)
     if figure:
-        from shoal.viz.files import save_figure
-        from shoal.viz.summary import summary_figure
+        from shoal.plot import save, summary
 
-        save_figure(summary_figure(record), figure)
+        save(summary(record), figure)
         note(f"figure: {figure}")
     if out:
         note(f"record: {out} (shoal show {out})")

@@ -79,14 +79,12 @@ def write_film(
         stretch = Stretch(np.array([frame_of(kept, start)]), 1)
     else:
         stretch = stretch_of(kept, start, steps, every)
-    if kind == "png":
-        stretch = Stretch(stretch.frames[-1:], 1)
     fps = look.fps or _FPS[kind]
     with style():
         size = film_size(record, look.width or _WIDTH[kind], look.height, look.parts, look.panels)
         page = FilmPage(record, run, stretch, size, look.parts, look.panels)
         if kind == "png":
-            page.show(0)
+            page.show(stretch.frames.size - 1)
             save_figure(page.figure, file, dpi=size.dpi)
         else:
             _encode(page, file, stretch.frames.size, size[:2], fps, progress)

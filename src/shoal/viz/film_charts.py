@@ -15,26 +15,30 @@ from shoal.viz.words import count
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_LEFT, _RIGHT = 0.62, 0.14  # [inch] room for a y label, page margin
-_TOP, _BOTTOM, _BETWEEN = 0.85, 0.6, 0.95
+_LEFT, _RIGHT = 0.72, 0.3  # [inch] room for a y label, page margin
+_TOP, _BOTTOM, _BETWEEN = 0.88, 0.66, 1.05
 
 
 class Charts:
-    """The charts, `width` [inch] wide, at the right of a figure."""
+    """The charts of a stretch, right of `left` [inch] on a figure.
+
+    engaged : (K,) how many are on target, NaN where no target is
+    """
 
     def __init__(
         self, figure: "Figure", record: Record, run: int, stretch: Stretch,
-        engaged: npt.NDArray[np.int64], present: npt.NDArray[np.bool_], width: float,
+        engaged: npt.NDArray[np.float64], left: float,
     ) -> None:  # fmt: skip
         page_width, page_height = figure.get_size_inches()
         tall = (page_height - _TOP - _BOTTOM - _BETWEEN) / 2
-        left, wide = (page_width - width + _LEFT) / page_width, (width - _LEFT - _RIGHT) / page_width
+        left += _LEFT
+        wide = page_width - left - _RIGHT
 
         def axes(bottom: float) -> Any:
-            return figure.add_axes((left, bottom / page_height, wide, tall / page_height))
+            return figure.add_axes((left / page_width, bottom / page_height, wide / page_width, tall / page_height))
 
         self._step = np.asarray(record.trajectories[run].step)[stretch.frames]
-        self._engaged = np.where(present, engaged, np.nan)
+        self._engaged = engaged
         self._histograms = phi_of_frames(record, run, stretch.frames)  # (K, F, 11)
         self._bars = self._draw_phi(axes(_BOTTOM + tall + _BETWEEN))
         self._line, self._dot = self._draw_engaged(axes(_BOTTOM))
@@ -53,7 +57,7 @@ class Charts:
 
     def _draw_phi(self, axes: Any) -> list[Any]:
         label_phi(axes)
-        axes.set_title("Heading relative to the target, now")
+        axes.set_title("Heading relative to target")
         axes.set_ylabel("agents")
         axes.set_ylim(0.0, max(1.0, 1.05 * float(self._histograms.sum(axis=1).max(initial=0.0))))
         return [

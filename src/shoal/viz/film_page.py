@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.record.record import Record
-from shoal.viz.arena import PAD
+from shoal.viz.arena import arena_aspect
 from shoal.viz.film_charts import Charts
 from shoal.viz.footage import watching
 from shoal.viz.legend import draw_legend, legend_height
@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 _EDGE = 0.12  # [inch] around the page
 _LINE = 0.21  # of text
 _STRIP = 0.07  # height of the strip of time
-_CHARTS = 2.7  # width of the charts, labels included
+_CHARTS = 2.9  # least width of the charts, labels included
+_PAD = 0.004  # around the arena
 _LETTER = 0.075  # [inch] of the title
 
 
@@ -63,11 +64,11 @@ class FilmPage:
         self.figure: Figure = new_figure(width, height)
         self.figure.set_dpi(size.dpi)
         self._axes = self._arena(width, height, parts, panels)
-        self._scene = Scene(self._axes, record, run, parts, stride=stretch.every)
+        self._scene = Scene(self._axes, record, run, parts, stride=stretch.every, pad=_PAD)
         self._bare(parts)
         self._texts = self._write(width, height, record.scenario["name"])
         self._strip = self._time_strip(width, height)
-        self._charts = Charts(self.figure, record, run, stretch, engaged, present, _CHARTS) if panels else None
+        self._charts = self._make_charts(record, run, stretch, engaged) if panels else None
         self._background: Any = None
 
     def show(self, number: int) -> None:
@@ -79,8 +80,8 @@ class FilmPage:
         time.set_text(f"step {count(step)}  \u00b7  {step * self._record.facts.time_step:.1f} s")
         state.set_text(state_text(self._frames, frame))
         state.set_color(TARGET if self._on_target[number] else GRAY)
-        known = np.isfinite(self._share[number])
-        share.set_text(f"time on target {100 * self._share[number]:.0f} %" if known else "")
+        told = np.isfinite(self._share[number]) and self._share.size > 1
+        share.set_text(f"time on target {100 * self._share[number]:.0f} %" if told else "")
         colors = self._strip_colors.copy()
         colors[number + 1 :] = _AHEAD
         self._strip.set_data(colors[None])
@@ -102,13 +103,17 @@ class FilmPage:
             self.figure.draw_artist(artist)
         return memoryview(canvas.buffer_rgba()).cast("B")
 
+    def _make_charts(self, record: Record, run: int, stretch: Stretch, engaged: npt.NDArray[np.int64]) -> Charts:
+        left = float(self._axes.get_position(original=True).x1 * self.figure.get_figwidth())
+        return Charts(self.figure, record, run, stretch, np.where(self._present, engaged, np.nan), left)
+
     def _arena(self, width: float, height: float, parts: Parts, panels: bool) -> "Axes":
-        """Axes as large as fit, centered in what header, strip and charts leave."""
+        """Axes as large as fit in what header, strip and charts leave, at the left of the charts or in the middle."""
         inside = width - 2 * _EDGE - (_CHARTS if panels else 0.0)
         tall = height - _above(self._record, inside, parts) - _below()
         wide = min(inside, max(tall, 0.1) * _aspect(self._record))
         tall = wide / _aspect(self._record)
-        left, bottom = _EDGE + (inside - wide) / 2, _below()
+        left, bottom = _EDGE + (0.0 if panels else (inside - wide) / 2), _below()
         return self.figure.add_axes((left / width, bottom / height, wide / width, tall / height))
 
     def _bare(self, parts: Parts) -> None:
@@ -142,6 +147,7 @@ class FilmPage:
         box = (_EDGE / width, _EDGE / height, 1.0 - 2 * _EDGE / width, _STRIP / height)
         axes = self.figure.add_axes(box)
         axes.set_axis_off()
+        axes.set_visible(self._share.size > 1)
         return axes.imshow(self._strip_colors[None], aspect="auto", interpolation="nearest")
 
 
@@ -159,9 +165,7 @@ def _dpi(shorter: int) -> float:
 
 
 def _aspect(record: Record) -> float:
-    area = record.scenario["area"]
-    pad = 2 * PAD * max(area["width"], area["height"])
-    return float((area["width"] + pad) / (area["height"] + pad))
+    return arena_aspect(record.scenario["area"], _PAD)
 
 
 def _above(record: Record, width: float, parts: Parts) -> float:

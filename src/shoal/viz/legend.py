@@ -19,34 +19,23 @@ _HALO, _SENSOR = "repulsion a_R", "sensor"
 
 def draw_legend(axes: "Axes", record: Record, *, halos: bool = False, sensors: bool = False) -> float:
     """Name the signs of a snapshot above it; return the height taken [inch]."""
-    from matplotlib.lines import Line2D
-
-    width = _inches(axes)[0]
-
-    def sign(label: str, marker: str, **look: Any) -> Line2D:
-        return Line2D([], [], linestyle="none", marker=marker, label=label, **look)
-
-    signs = [
-        sign(
-            label, fleet_marker(fleet), color=fleet_color(fleet), markersize=max(4.0, marker_area(record, fleet) ** 0.5)
-        )
-        for fleet, label in enumerate(_fleet_labels(record))
-    ]
+    signs = _fleet_signs(record)
     signs.append(
-        sign("on target", "o", markerfacecolor="white", markeredgecolor=INK, markeredgewidth=1.3, markersize=6)
+        _sign("on target", "o", markerfacecolor="white", markeredgecolor=INK, markeredgewidth=1.3, markersize=6)
     )
-    signs.append(sign("target", "o", markerfacecolor=TARGET + "38", markeredgecolor=TARGET, markersize=8))
+    signs.append(_target_sign())
     if halos:
         face, edge = fleet_color(0) + "17", fleet_color(0) + "60"
-        signs.append(sign(_HALO, "o", markerfacecolor=face, markeredgecolor=edge, markersize=11))
+        signs.append(_sign(_HALO, "o", markerfacecolor=face, markeredgecolor=edge, markersize=11))
     if sensors:
-        signs.append(sign(_SENSOR, "o", markerfacecolor="none", markeredgecolor=GRAY, markersize=9))
-    labels = [str(each.get_label()) for each in signs]
-    axes.legend(
-        handles=signs, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=_columns(labels, width),
-        borderaxespad=0.2, borderpad=0.2,
-    )  # fmt: skip
-    return ROW * _rows(labels, width)
+        signs.append(_sign(_SENSOR, "o", markerfacecolor="none", markeredgecolor=GRAY, markersize=9))
+    return _above(axes, signs)
+
+
+def draw_map_legend(axes: "Axes", record: Record) -> float:
+    """Name the signs of a trajectory map above it; return the height taken [inch]."""
+    ring = _sign("start", "o", markerfacecolor="white", markeredgecolor=GRAY, markersize=4)
+    return _above(axes, [*_fleet_signs(record), _target_sign(), ring])
 
 
 def legend_height(record: Record, width: float, *, halos: bool = False, sensors: bool = False) -> float:
@@ -82,6 +71,36 @@ def marker_area(record: Record, fleet: int) -> float:
 def short_name(name: str) -> str:
     """The name of a fleet as far as it fits a legend."""
     return shorten(name.lstrip("_") or "fleet", _LONGEST)  # matplotlib hides labels that begin with _
+
+
+def _sign(label: str, marker: str, **look: Any) -> Any:
+    from matplotlib.lines import Line2D
+
+    return Line2D([], [], linestyle="none", marker=marker, label=label, **look)
+
+
+def _fleet_signs(record: Record) -> list[Any]:
+    return [
+        _sign(
+            label, fleet_marker(fleet), color=fleet_color(fleet), markersize=max(4.0, marker_area(record, fleet) ** 0.5)
+        )
+        for fleet, label in enumerate(_fleet_labels(record))
+    ]
+
+
+def _target_sign() -> Any:
+    return _sign("target", "o", markerfacecolor=TARGET + "38", markeredgecolor=TARGET, markersize=8)
+
+
+def _above(axes: "Axes", signs: list[Any]) -> float:
+    """Put a legend above axes; return its height [inch]."""
+    width = _inches(axes)[0]
+    labels = [str(sign.get_label()) for sign in signs]
+    axes.legend(
+        handles=signs, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=_columns(labels, width),
+        borderaxespad=0.2, borderpad=0.2,
+    )  # fmt: skip
+    return ROW * _rows(labels, width)
 
 
 def _fleet_labels(record: Record) -> list[str]:

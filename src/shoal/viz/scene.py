@@ -7,7 +7,7 @@ import numpy as np
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.viz.agents import AgentMarks
-from shoal.viz.arena import draw_arena, draw_scale_bar, in_kilometers
+from shoal.viz.arena import PAD, draw_arena, draw_scale_bar, in_kilometers
 from shoal.viz.discs import Halos, SensorDiscs
 from shoal.viz.links import Links
 from shoal.viz.targets import TargetMarks
@@ -46,6 +46,7 @@ class Scene:
     trail : steps of the targets' trails (the buoys' are a third of it); default: what the fastest buoy needs for 8
         arena units, each a twentieth of the longer side
     stride : steps between two frames that a trail may join
+    pad : room around the arena, as a share of the longer side
 
     Raises
     ------
@@ -53,12 +54,13 @@ class Scene:
     """
 
     def __init__(
-        self, axes: "Axes", record: Record, run: int, parts: Parts, trail: int | None = None, stride: int = 1
-    ) -> None:
+        self, axes: "Axes", record: Record, run: int, parts: Parts, trail: int | None = None, stride: int = 1,
+        pad: float = PAD,
+    ) -> None:  # fmt: skip
         self.frames = record.trajectories[run]
         targets = record.scenario["targets"]
         steps = default_trail(record) if trail is None else trail
-        draw_arena(axes, record.scenario["area"])
+        draw_arena(axes, record.scenario["area"], pad)
         self.actors: list[Actor] = []
         for number, target in enumerate(targets):
             if target["kind"] == "track":
