@@ -54,7 +54,8 @@ __all__ = [
 ]
 
 AnyRecord = Record | str | Path
-_CHART = (0.62, 0.74, 3.6, 2.3)  # [inch] left, bottom, width and height of a chart alone
+_PHI = (0.62, 0.74, 3.6, 2.3)  # [inch] left, bottom, width and height of a histogram alone
+_CHART = (0.62, 0.48, 3.6, 2.3)  # of a chart with one line of labels below
 _TOP, _RIGHT = 0.35, 0.2
 _RUN_COLUMNS = ("run_id", "run", "seed", "scenario_hash", "status", "error", "started", "seconds")
 
@@ -107,7 +108,8 @@ def trajectory_map(
     ----------
     record : a record or its folder
     run : number of a run that kept a trajectory; default the first of those
-    start, steps, every : the steps shown; default the last that were kept evenly apart, 300 unless the record has more
+    start, steps, every : the steps shown; default the last in which the fastest buoy can cross the
+        arena once
 
     Raises
     ------
@@ -115,9 +117,7 @@ def trajectory_map(
     """
     record = _record(record)
     run = _run(record, run)
-    return _drawn(
-        axes, _arena_page(record), lambda into: draw_trajectory_map(into, record, run, start, steps, every)
-    )
+    return _drawn(axes, _arena_page(record), lambda into: draw_trajectory_map(into, record, run, start, steps, every))
 
 
 def phi_histogram(
@@ -132,13 +132,13 @@ def phi_histogram(
     """
     if isinstance(records, (Record, str, Path)):
         record = _record(records)
-        return _drawn(axes, (_CHART, _RIGHT, _TOP), lambda into: draw_phi_histogram(into, record))
+        return _drawn(axes, (_PHI, _RIGHT, _TOP), lambda into: draw_phi_histogram(into, record))
     named = records.items() if isinstance(records, Mapping) else [(None, each) for each in records]
     panels = [(name, _record(each)) for name, each in named]
     if axes is not None or not panels:
         raise RecordError("records", f"are {len(panels)}", "give one record to draw into axes, and one or more without")
     with style():
-        left, bottom, width, height = _CHART
+        left, bottom, width, height = _PHI
         across, tall = len(panels) * (left + width) + _RIGHT, bottom + height + _TOP
         figure = new_figure(across, tall)
         for number, (name, record) in enumerate(panels):

@@ -9,7 +9,7 @@ from cyclopts import Parameter
 
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
-from shoal.cli.startup import load_compiler
+from shoal.cli.startup import load_compiler, tell_of_compiling
 
 
 def run(
@@ -75,9 +75,7 @@ def run(
     load_compiler()
     from shoal.core.errors import ScenarioError
     from shoal.runs import simulate
-    from shoal.scenario.crew import crew_of
     from shoal.scenario.load import scenario_from
-    from shoal.simulation import engine_is_compiled, needs_compiling
 
     changes: dict[str, Any] = {
         "agents": agents,
@@ -96,10 +94,7 @@ def run(
         figure_format(figure)  # refused before the run, not after
     table = edited_table(scenario, changes, assignments or [], target_track, track_id)
     chosen = scenario_from(table, where=scenario)
-    if needs_compiling(chosen):
-        crew, seconds = crew_of(chosen), 5 if engine_is_compiled() else 20
-        once = "once per version of Shoal" if crew.builtin else "a file of yours is compiled every time"
-        note(f"compiling the engine for strategy {crew.name!r} (about {seconds} s, {once})")
+    tell_of_compiling(chosen)
     with progress_bar(f"{chosen.name}, {runs} x {chosen.steps:,} steps") as progress:
         record = simulate(chosen, runs=runs, jobs=jobs, every=every, out=out, progress=progress)
     for each in record.provenance["notes"]:

@@ -10,7 +10,7 @@ from uuid import uuid4
 
 from shoal.core.errors import MissingExtraError, RecordError
 
-COLORS = 128  # of a gif's palette; figures have few, and their edges blend
+COLORS = 96  # of a gif's palette; figures have few, and their edges blend
 
 _MP4 = (
     *("-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p"),  # what every player can show

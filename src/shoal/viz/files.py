@@ -38,7 +38,9 @@ def save_figure(figure: "Figure", path: str | Path, dpi: float | None = None) ->
     partial = file.with_name(f".{file.name}.{uuid4().hex}.partial")
     try:
         with style(), partial.open("xb") as stream:
-            figure.savefig(stream, format=kind, dpi=dpi or RC["savefig.dpi"], facecolor="white", metadata=_NO_DATES[kind])
+            figure.savefig(
+                stream, format=kind, dpi=dpi or RC["savefig.dpi"], facecolor="white", metadata=_NO_DATES[kind]
+            )
         partial.replace(file)
     except OSError as error:
         raise _unwritable(file, error) from error

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
+from shoal.metrics.summary import Facts
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.viz.agents import AgentMarks
@@ -59,7 +60,7 @@ class Scene:
     ) -> None:  # fmt: skip
         self.frames = record.trajectories[run]
         targets = record.scenario["targets"]
-        steps = default_trail(record) if trail is None else trail
+        steps = trail_steps(record.facts) if trail is None else trail
         draw_arena(axes, record.scenario["area"], pad)
         self.actors: list[Actor] = []
         for number, target in enumerate(targets):
@@ -98,7 +99,6 @@ class Scene:
         return sorted((each for actor in self.actors for each in actor.artists), key=lambda artist: artist.get_zorder())
 
 
-def default_trail(record: Record) -> int:
+def trail_steps(facts: Facts) -> int:
     """Steps of a target's trail if nobody says otherwise."""
-    facts = record.facts
     return round(REACH * facts.unit / (max(facts.max_speeds) * facts.time_step))

@@ -6,6 +6,7 @@ import numpy as np
 
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
+from shoal.scenario.schema import ARENA_UNITS
 from shoal.viz.agents import AgentMarks
 from shoal.viz.arena import draw_arena, draw_scale_bar
 from shoal.viz.legend import draw_map_legend
@@ -36,21 +37,25 @@ def draw_trajectory_map(
     Parameters
     ----------
     run : number of a run that kept a trajectory
-    start, steps, every : which steps, see `stretch.stretch_of`
+    start, steps, every : which steps, see `stretch.stretch_of`; default: the last in which the fastest buoy can cross the
+        arena once
 
     Raises
     ------
     RecordError : no trajectory of this run, or a frame that is needed was not kept
     """
     whole = frames_of(record, run)
-    stretch = stretch_of(np.asarray(whole.step), start, steps, every)
+    kept, facts = np.asarray(whole.step), record.facts
+    if start is None and steps is None:
+        steps = min(round(ARENA_UNITS * facts.unit / (max(facts.max_speeds) * facts.time_step)), int(kept[-1]) + 1)
+    stretch = stretch_of(kept, start, steps, every)
     frames = _part(whole, stretch.frames)
     area, targets = record.scenario["area"], record.scenario["targets"]
     side = max(area["width"], area["height"])
     draw_arena(axes, area)
     paths = agent_paths(frames, slice(None))  # (N, K, 2)
     begin = 0
-    for fleet, number in enumerate(record.facts.counts):
+    for fleet, number in enumerate(facts.counts):
         mine = paths[begin : begin + number]
         _draw_paths(axes, mine, fleet_color(fleet), 0.9, f"paths-{fleet}", 3)
         _draw_starts(axes, mine, fleet_color(fleet), 7.0, f"starts-{fleet}")
