@@ -23,8 +23,8 @@ from shoal.record.record import Record
 from shoal.simulation import Simulation
 from shoal.viz.arena import arena_aspect
 from shoal.viz.curves import draw_batches
-from shoal.viz.film import Film, FilmLook, write_film
 from shoal.viz.files import save_figure
+from shoal.viz.film import Film, FilmLook, write_film
 from shoal.viz.footage import present
 from shoal.viz.histogram import draw_phi_histogram
 from shoal.viz.layout import snapshot_size

@@ -61,7 +61,8 @@ def film(
     fps
         Frames per second; default 30, of a gif 20.
     size
-        WIDTHxHEIGHT in pixels, or WIDTH alone: the arena then decides the height. Default 720, of a gif 480.
+        WIDTHxHEIGHT in pixels, or WIDTH alone: the arena then decides the height. Default 720, of a gif 480; half as
+        much again with --panels.
     run
         Number of the run shown.
     links

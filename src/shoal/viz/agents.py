@@ -1,6 +1,6 @@
 """Buoys as marks: told apart by fleet, by speed, and by being on target; who is not there is not drawn."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,7 +11,6 @@ from shoal.viz.style import INK, fleet_color, fleet_marker
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.collections import PathCollection
 
 
 class AgentMarks:
@@ -20,7 +19,7 @@ class AgentMarks:
     def __init__(self, axes: "Axes", record: Record) -> None:
         self._ends = np.cumsum(record.facts.counts)
         self._areas = [marker_area(record, fleet) for fleet in range(len(self._ends))]
-        self.artists: list[PathCollection] = [
+        self.artists: list[Any] = [
             axes.scatter([], [], marker=fleet_marker(fleet), color=fleet_color(fleet), zorder=5, gid=f"fleet-{fleet}")
             for fleet in range(len(self._ends))
         ]

@@ -44,7 +44,7 @@ def draw_scale_bar(axes: "Axes", points: npt.NDArray[np.float64]) -> None:
     left, right = axes.get_xlim()
     bottom, top = axes.get_ylim()
     length = round_length(0.25 * (right - left))
-    pad = 0.045 * max(right - left, top - bottom)
+    pad = 0.045 * min(right - left, top - bottom)
     corners = [(x, y) for y in (bottom + pad, top - 1.5 * pad) for x in (left + pad, right - pad - length)]
 
     def hidden(corner: tuple[float, float]) -> int:

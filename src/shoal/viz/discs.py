@@ -31,7 +31,7 @@ class Halos:
                 "leave them out, or take a strategy with adaptive repulsion, such as knn-pso",
             )
         self._fleets = np.repeat(np.arange(len(record.facts.counts)), record.facts.counts)
-        self._colors = np.array([fleet_color(fleet) for fleet in self._fleets])
+        self._colors = np.array([fleet_color(fleet) for fleet in self._fleets.tolist()])
         self._discs = _Discs(axes, "halos", alpha=0.09, linewidth=0.5)
         self.artists = [self._discs.collection]
 
@@ -50,7 +50,7 @@ class SensorDiscs:
     """
 
     def __init__(self, axes: "Axes", record: Record, run: int) -> None:
-        radii = [fleet.get("sensor_radius", 0.0) for fleet in record.scenario["fleets"]]
+        radii = [fleet["sensor_radius"] for fleet in record.scenario["fleets"]]
         if not any(radii):
             raise RecordError(
                 "sensor discs",

@@ -12,12 +12,13 @@ from shoal.core.errors import MissingExtraError, RecordError
 
 COLORS = 96  # of a gif's palette; figures have few, and their edges blend
 
-_MP4 = (
+_MP4: tuple[str, ...] = (
     *("-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p"),  # what every player can show
     *("-c:v", "libx264", "-preset", "medium", "-crf", "18", "-tune", "animation"),
     *("-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"),
     *("-movflags", "+faststart", "-f", "mp4"),
 )
+_GIF = ("-lavfi", "paletteuse=dither=none:diff_mode=rectangle", "-f", "gif")
 
 
 def find_ffmpeg() -> str:
@@ -50,12 +51,13 @@ def encoder(file: Path, size: tuple[int, int], fps: float, palette: bytes | None
     RecordError : ffmpeg fails, or the file cannot be written
     """
     ffmpeg = find_ffmpeg()
+    look: tuple[str, ...]
     partial = file.with_name(f".{file.name}.{uuid4().hex}.partial")
     try:
         with tempfile.TemporaryDirectory(prefix="shoal-film-") as folder:
             if file.suffix.lower() == ".gif":
                 colors = _palette(file, ffmpeg, Path(folder) / "palette.png", size, palette or b"")
-                look = ("-i", str(colors), "-lavfi", "paletteuse=dither=none:diff_mode=rectangle", "-f", "gif")
+                look = ("-i", str(colors), *_GIF)
             else:
                 look = _MP4
             with _running(file, [ffmpeg, *_raw(size, fps), *look, "-bitexact", "-y", str(partial)]) as pipe:

@@ -17,10 +17,11 @@ from shoal.viz.stretch import Stretch, frame_of, stretch_of
 from shoal.viz.style import style
 
 FORMATS = ("mp4", "gif", "png")
-SMALLEST, LARGEST = 160, 4096  # [pixel] a side
+SMALLEST, LARGEST = 200, 4096  # [pixel] a side
 SLOWEST, FASTEST = 1.0, 60.0  # [frames/s]
 _FPS = {"mp4": 30.0, "gif": 20.0, "png": 1.0}
 _WIDTH = {"mp4": 720, "gif": 480, "png": 720}
+_WIDER = 1.5  # with charts
 _SAMPLES = 12  # frames from which a gif's colors are chosen
 
 Progress = Callable[[int, int], None]
@@ -37,6 +38,9 @@ class FilmLook(NamedTuple):
     height: int | None = None
     parts: Parts = Parts()
     panels: bool = False  # charts beside the arena
+
+
+PLAIN = FilmLook()
 
 
 class Film(NamedTuple):
@@ -59,7 +63,7 @@ def write_film(
     start: int | None = None,
     steps: int | None = None,
     every: int | None = None,
-    look: FilmLook = FilmLook(),
+    look: FilmLook = PLAIN,
     progress: Progress | None = None,
 ) -> Film:
     """Write a film of the steps `start` to `start + steps - 1`, or of the last stretch kept that is evenly apart.
@@ -81,7 +85,13 @@ def write_film(
         stretch = stretch_of(kept, start, steps, every)
     fps = look.fps or _FPS[kind]
     with style():
-        size = film_size(record, look.width or _WIDTH[kind], look.height, look.parts, look.panels)
+        size = film_size(
+            record,
+            look.width or round(_WIDTH[kind] * (_WIDER if look.panels else 1.0)),
+            look.height,
+            look.parts,
+            look.panels,
+        )
         page = FilmPage(record, run, stretch, size, look.parts, look.panels)
         if kind == "png":
             page.show(stretch.frames.size - 1)

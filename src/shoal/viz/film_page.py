@@ -24,6 +24,7 @@ _EDGE = 0.12  # [inch] around the page
 _LINE = 0.21  # of text
 _STRIP = 0.07  # height of the strip of time
 _CHARTS = 2.9  # least width of the charts, labels included
+_PANELS = 4.6  # least height of a page with charts
 _PAD = 0.004  # around the arena
 _LETTER = 0.075  # [inch] of the title
 
@@ -41,9 +42,9 @@ def film_size(record: Record, width: int, height: int | None, parts: Parts, pane
     width -= width % 2
     dpi = _dpi(min(width, height or width))
     if height is None:
-        inside = width / dpi - 2 * _EDGE - (_CHARTS if panels else 0.0)
+        inside = _inside(width / dpi, panels)
         tall = inside / _aspect(record) + _above(record, inside, parts) + _below()
-        height = round(max(tall, 3.6 if panels else 0.0) * dpi)
+        height = round(max(tall, _PANELS if panels else 0.0) * dpi)
     return FilmSize(width, height - height % 2, dpi)
 
 
@@ -55,10 +56,11 @@ class FilmPage:
     ) -> None:
         self._record, self._stretch = record, stretch
         self._frames = record.trajectories[run]
-        engaged, present = (values[stretch.frames] for values in watching(record, run))
-        self._on_target, self._present = engaged > 0, present
+        engaged, present = watching(record, run)
+        engaged, self._present = engaged[stretch.frames], present[stretch.frames]
+        self._on_target = engaged > 0
         with np.errstate(invalid="ignore"):  # no target yet
-            self._share = np.cumsum(self._on_target) / np.cumsum(present)
+            self._share = np.cumsum(self._on_target) / np.cumsum(self._present)
         # a thousandth of a pixel more, lest a rounding error take a whole one
         width, height = (size.width + 1e-3) / size.dpi, (size.height + 1e-3) / size.dpi
         self.figure: Figure = new_figure(width, height)
@@ -108,12 +110,14 @@ class FilmPage:
         return Charts(self.figure, record, run, stretch, np.where(self._present, engaged, np.nan), left)
 
     def _arena(self, width: float, height: float, parts: Parts, panels: bool) -> "Axes":
-        """Axes as large as fit in what header, strip and charts leave, at the left of the charts or in the middle."""
-        inside = width - 2 * _EDGE - (_CHARTS if panels else 0.0)
+        """Axes as large as fit in what header, strip and charts leave: under the legend, left of the charts."""
+        inside = _inside(width, panels)
         tall = height - _above(self._record, inside, parts) - _below()
         wide = min(inside, max(tall, 0.1) * _aspect(self._record))
         tall = wide / _aspect(self._record)
-        left, bottom = _EDGE + (0.0 if panels else (inside - wide) / 2), _below()
+        left = _EDGE + (0.0 if panels else (inside - wide) / 2)
+        bottom = height - _above(self._record, inside, parts) - tall
+        self._margins = left - _EDGE, inside
         return self.figure.add_axes((left / width, bottom / height, wide / width, tall / height))
 
     def _bare(self, parts: Parts) -> None:
@@ -123,7 +127,8 @@ class FilmPage:
         self._axes.set_xlabel("")
         self._axes.set_ylabel("")
         self._scene.scale(always=True)
-        draw_legend(self._axes, self._record, halos=parts.halos, sensors=parts.sensors)
+        shift, inside = self._margins
+        draw_legend(self._axes, self._record, halos=parts.halos, sensors=parts.sensors, width=inside, shift=shift)
 
     def _write(self, width: float, height: float, name: str) -> list[Any]:
         """Two lines above all: title and time, state and time on target."""
@@ -142,7 +147,7 @@ class FilmPage:
         ]
 
     def _time_strip(self, width: float, height: float) -> Any:
-        """A strip along the bottom: vermilion while somebody was on target, white while no target was there."""
+        """A strip along the bottom: vermilion while somebody was on target, pale while no target was there."""
         self._strip_colors = _STRIP_COLORS[np.where(self._on_target, 2, np.where(self._present, 1, 0))]
         box = (_EDGE / width, _EDGE / height, 1.0 - 2 * _EDGE / width, _STRIP / height)
         axes = self.figure.add_axes(box)
@@ -155,17 +160,22 @@ def _rgb(color: str) -> npt.NDArray[np.uint8]:
     return np.array([int(color[at : at + 2], 16) for at in (1, 3, 5)], np.uint8)
 
 
-_STRIP_COLORS = np.array([_rgb("#ffffff"), _rgb("#b9bec4"), _rgb(TARGET)])
-_AHEAD = _rgb("#eceff2")
+_STRIP_COLORS = np.array([_rgb("#dfe3e7"), _rgb("#a9b0b8"), _rgb(TARGET)])
+_AHEAD = _rgb("#f3f5f7")
 
 
 def _dpi(shorter: int) -> float:
-    """Letters are as large as on a page, but shrink with films under 480 pixels and grow with those over 720."""
-    return 100.0 * (shorter / 480.0 if shorter < 480 else max(1.0, shorter / 720.0))
+    """Letters are as large as on a page, but shrink a little with films under 480 pixels, grow with those over 720."""
+    return 100.0 * (max(0.7, shorter / 480.0) if shorter < 480 else max(1.0, shorter / 720.0))
 
 
 def _aspect(record: Record) -> float:
     return arena_aspect(record.scenario["area"], _PAD)
+
+
+def _inside(width: float, panels: bool) -> float:
+    """Width of a page's arena [inch]."""
+    return width - 2 * _EDGE - (min(_CHARTS, 0.45 * width) if panels else 0.0)
 
 
 def _above(record: Record, width: float, parts: Parts) -> float:

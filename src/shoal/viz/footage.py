@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from shoal.core.errors import ScenarioError
 from shoal.record.record import Record
@@ -66,18 +67,19 @@ def _record(scenario: Scenario, simulation: Simulation, frames: Trajectory) -> R
     return Record(content, facts_of(scenario), (simulation.tally,), {"seed": scenario.seed}, {simulation.run: frames})
 
 
-def watching(record: Record, run: int) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+def watching(record: Record, run: int) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.bool_]]:
     """How many agents are on a target that is there, and whether one is, at every frame: (K,), (K,).
 
     An agent that reports a target out of its sensor's reach, a false alarm, is not on target.
     """
     frames, scenario = record.trajectories[run], record.scenario
-    fleets = scenario.get("fleets") or [{}] * len(record.facts.counts)
-    sensors = np.repeat([fleet.get("sensor_radius", 0.0) for fleet in fleets], record.facts.counts)
+    sensors = np.repeat([fleet["sensor_radius"] for fleet in scenario["fleets"]], record.facts.counts)
     near = np.zeros(frames.on_target.shape, bool)
     for number, target in enumerate(scenario["targets"]):
         dx = frames.x - frames.target_x[:, number, None]
         dy = frames.y - frames.target_y[:, number, None]
         there = np.asarray(frames.target_present[:, number])
         near |= (dx * dx + dy * dy <= (sensors + target["radius"]) ** 2) & there[:, None]
-    return (near & frames.on_target & frames.alive).sum(axis=1), np.asarray(frames.target_present).any(axis=1)
+    engaged: npt.NDArray[np.int64] = (near & frames.on_target & frames.alive).sum(axis=1)
+    present: npt.NDArray[np.bool_] = np.any(frames.target_present, axis=1)
+    return engaged, present

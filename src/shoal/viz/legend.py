@@ -17,8 +17,22 @@ _LONGEST = 26  # letters of a name
 _HALO, _SENSOR = "repulsion a_R", "sensor"
 
 
-def draw_legend(axes: "Axes", record: Record, *, halos: bool = False, sensors: bool = False) -> float:
-    """Name the signs of a snapshot above it; return the height taken [inch]."""
+def draw_legend(
+    axes: "Axes",
+    record: Record,
+    *,
+    halos: bool = False,
+    sensors: bool = False,
+    width: float | None = None,
+    shift: float = 0.0,
+) -> float:
+    """Name the signs of a snapshot above it; return the height taken [inch].
+
+    Parameters
+    ----------
+    halos, sensors : whether there are discs of these
+    width, shift : room for the legend, and how far it begins left of the axes [inch]; default: that of the axes
+    """
     signs = _fleet_signs(record)
     signs.append(
         _sign("on target", "o", markerfacecolor="white", markeredgecolor=INK, markeredgewidth=1.3, markersize=6)
@@ -29,7 +43,7 @@ def draw_legend(axes: "Axes", record: Record, *, halos: bool = False, sensors: b
         signs.append(_sign(_HALO, "o", markerfacecolor=face, markeredgecolor=edge, markersize=11))
     if sensors:
         signs.append(_sign(_SENSOR, "o", markerfacecolor="none", markeredgecolor=GRAY, markersize=9))
-    return _above(axes, signs)
+    return _above(axes, signs, width, shift)
 
 
 def draw_map_legend(axes: "Axes", record: Record) -> float:
@@ -92,12 +106,13 @@ def _target_sign() -> Any:
     return _sign("target", "o", markerfacecolor=TARGET + "38", markeredgecolor=TARGET, markersize=8)
 
 
-def _above(axes: "Axes", signs: list[Any]) -> float:
+def _above(axes: "Axes", signs: list[Any], width: float | None = None, shift: float = 0.0) -> float:
     """Put a legend above axes; return its height [inch]."""
-    width = _inches(axes)[0]
+    wide = _inches(axes)[0]
+    width = width or wide
     labels = [str(sign.get_label()) for sign in signs]
     axes.legend(
-        handles=signs, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=_columns(labels, width),
+        handles=signs, loc="lower left", bbox_to_anchor=(-shift / wide, 1.0), ncols=_columns(labels, width),
         borderaxespad=0.2, borderpad=0.2,
     )  # fmt: skip
     return ROW * _rows(labels, width)

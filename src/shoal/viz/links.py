@@ -1,7 +1,7 @@
 """Who hears whom: lines from each buoy to its k nearest others."""
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -24,7 +24,7 @@ class Links:
 
         network = record.scenario["network"]
         self._degrees = _degrees(record)
-        self._reach = network.get("range") or math.inf
+        self._reach = network["range"] or math.inf
         self._lines = LineCollection([], colors=GRAY, linewidths=0.6, zorder=1.5)
         self._lines.set_gid("links")
         axes.add_collection(self._lines, autolim=False)
@@ -73,6 +73,5 @@ def nearest_pairs(
 def _degrees(record: Record) -> npt.NDArray[np.int64]:
     """K of each agent (N,)."""
     facts, scenario = record.facts, record.scenario
-    fleets: list[dict[str, Any]] = scenario.get("fleets") or [{}] * len(facts.counts)
-    chosen = [fleet.get("neighbors") or scenario["network"]["neighbors"] for fleet in fleets]
+    chosen = [fleet["neighbors"] or scenario["network"]["neighbors"] for fleet in scenario["fleets"]]
     return np.repeat([facts.agents - 1 if degree == "all" else int(degree) for degree in chosen], facts.counts)

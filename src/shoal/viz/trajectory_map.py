@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _SHADES = 8  # of a path, from its start to its end
-_FAINTEST, _DARKEST = 0.12, 0.85  # opacity
+_FAINTEST, _DARKEST = 0.18, 0.85  # opacity
 
 
 def draw_trajectory_map(
@@ -32,13 +33,13 @@ def draw_trajectory_map(
     steps: int | None = None,
     every: int | None = None,
 ) -> None:
-    """Draw the path of each buoy in the color of its fleet and of each target; rings where they start, marks at the end.
+    """Draw the path of each buoy, in the color of its fleet, and of each target, from a ring to a mark.
 
     Parameters
     ----------
     run : number of a run that kept a trajectory
-    start, steps, every : which steps, see `stretch.stretch_of`; default: the last in which the fastest buoy can cross the
-        arena once
+    start, steps, every : which steps, see `stretch.stretch_of`; default: the last in which the fastest buoy can cross
+        the arena once
 
     Raises
     ------
@@ -68,9 +69,9 @@ def draw_trajectory_map(
         broken = unwrapped(path, side)
         _draw_paths(axes, broken[None], TARGET, 2.0, f"target-path-{number}", 2)
         _draw_starts(axes, path[None], TARGET, 26.0, f"target-start-{number}")
-    for actor in (*(TargetMarks(axes, record, number) for number in range(len(targets))), AgentMarks(axes, record)):
-        actor.show(frames, -1)
-    draw_scale_bar(axes, np.concatenate([paths.reshape(-1, 2)[:: max(1, paths.size // 10_000)], np.empty((0, 2))]))
+        TargetMarks(axes, record, number).show(frames, -1)
+    AgentMarks(axes, record).show(frames, -1)
+    draw_scale_bar(axes, paths.reshape(-1, 2))
     height = draw_map_legend(axes, record)
     axes.set_title(_words(record, frames, run), pad=7.0 + POINTS * height)
 
@@ -93,7 +94,7 @@ def _draw_paths(axes: "Axes", paths: Points, color: str, width: float, gid: str,
 
 def _draw_starts(axes: "Axes", paths: Points, color: str, size: float, gid: str) -> None:
     """A ring where each path begins: where it is first there."""
-    there = np.isfinite(paths).all(axis=-1)  # (P, K)
+    there = np.isfinite(paths[..., 0])  # (P, K)
     known = there.any(axis=1)
     first = paths[known, there[known].argmax(axis=1)]
     axes.scatter(
@@ -101,7 +102,7 @@ def _draw_starts(axes: "Axes", paths: Points, color: str, size: float, gid: str)
     )
 
 
-def _part(frames: Trajectory, chosen: np.ndarray) -> Trajectory:  # type: ignore[type-arg]
+def _part(frames: Trajectory, chosen: npt.NDArray[np.intp]) -> Trajectory:
     return Trajectory.from_arrays({name: np.asarray(values[chosen]) for name, values in frames.arrays().items()})
 
 

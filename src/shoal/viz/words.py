@@ -109,7 +109,7 @@ def _speed_text(target: dict[str, Any]) -> str:
         return f"recorded ({target['id']})" if target.get("id") else "recorded"
     if "speed" not in target:
         return str(target["kind"])
-    kind = "" if target["kind"] == "waypoint" else f"{target['kind']}, "
+    kind = "" if target["kind"] == "waypoint" else f"{target['kind']} "
     return f"{kind}{target['speed']:.3g} m/s"
 
 
