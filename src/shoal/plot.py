@@ -28,7 +28,7 @@ from shoal.viz.film import Film, FilmLook, write_film
 from shoal.viz.footage import present
 from shoal.viz.histogram import draw_phi_histogram
 from shoal.viz.layout import snapshot_size
-from shoal.viz.legend import legend_height, short_name
+from shoal.viz.legend import legend_height, map_legend_height, short_name
 from shoal.viz.snapshot import draw_snapshot, frames_of
 from shoal.viz.stretch import frame_of
 from shoal.viz.style import new_figure, style
@@ -54,6 +54,7 @@ __all__ = [
 ]
 
 AnyRecord = Record | str | Path
+Page = tuple[tuple[float, float, float, float], float, float]  # [inch] axes; room right of and above them
 _PHI = (0.62, 0.74, 3.6, 2.3)  # [inch] left, bottom, width and height of a histogram alone
 _CHART = (0.62, 0.48, 3.6, 2.3)  # of a chart with one line of labels below
 _TOP, _RIGHT = 0.35, 0.2
@@ -89,7 +90,7 @@ def snapshot(
     record = present(what) if isinstance(what, Simulation) else _record(what)
     run = _run(record, run)
     frame = -1 if step is None else frame_of(np.asarray(frames_of(record, run).step), step)
-    size = _arena_page(record, halos=halos, sensors=sensors)
+    size = _arena_page(record, lambda width: legend_height(record, width, halos=halos, sensors=sensors))
     return _drawn(axes, size, lambda into: draw_snapshot(into, record, run, frame, links, trail, halos, sensors))
 
 
@@ -117,7 +118,8 @@ def trajectory_map(
     """
     record = _record(record)
     run = _run(record, run)
-    return _drawn(axes, _arena_page(record), lambda into: draw_trajectory_map(into, record, run, start, steps, every))
+    size = _arena_page(record, lambda width: map_legend_height(record, width))
+    return _drawn(axes, size, lambda into: draw_trajectory_map(into, record, run, start, steps, every))
 
 
 def phi_histogram(
@@ -233,15 +235,15 @@ def _run(record: Record, run: int | None) -> int:
     return min(record.trajectories, default=0) if run is None else run
 
 
-def _arena_page(record: Record, **signs: bool) -> tuple[tuple[float, float, float, float], float, float]:
+def _arena_page(record: Record, legend: Callable[[float], float]) -> Page:
     """Where the arena is on a page of its own [inch], and the room right of and above it."""
     width, height = snapshot_size(arena_aspect(record.scenario["area"]))
-    return (0.62, 0.55, width, height), 0.15, 0.3 + legend_height(record, width, **signs)
+    return (0.62, 0.55, width, height), 0.15, 0.3 + legend(width)
 
 
 def _drawn(
     axes: "Axes | None",
-    page: tuple[tuple[float, float, float, float], float, float],
+    page: Page,
     draw: "Callable[[Axes], None]",
 ) -> "Figure":
     """Draw into axes, or into new ones on a page that fits them."""

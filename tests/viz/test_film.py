@@ -28,7 +28,7 @@ def decoded(file):
     command = [find_ffmpeg(), "-i", file, "-fps_mode", "passthrough", "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
     done = subprocess.run(command, capture_output=True, check=True)
     stream = next(line for line in done.stderr.decode().splitlines() if "Video:" in line)
-    width, height = map(int, re.search(r" (\d+)x(\d+)", stream).groups())
+    width, height = map(int, re.search(r" (\d{2,})x(\d+)", stream).groups())
     return stream, np.frombuffer(done.stdout, np.uint8).reshape(-1, height, width, 3)
 
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 ROW = 0.18  # [inch] height of a row
-_LETTER, _SIGN = 0.056, 0.36  # [inch] width of a letter; of a sign and the space around it
+_LETTER, _SIGN = 0.058, 0.42  # [inch] width of a letter; of a sign and the space around it
 _LONGEST = 26  # letters of a name
 _HALO, _SENSOR = "repulsion a_R", "sensor"
 
@@ -56,6 +56,11 @@ def legend_height(record: Record, width: float, *, halos: bool = False, sensors:
     """Height of the legend above a snapshot of a width [inch]."""
     labels = [*_fleet_labels(record), "on target", "target", *[_HALO] * halos, *[_SENSOR] * sensors]
     return ROW * _rows(labels, width)
+
+
+def map_legend_height(record: Record, width: float) -> float:
+    """Height of the legend above a trajectory map of a width [inch]."""
+    return ROW * _rows([*_fleet_labels(record), "target", "start"], width)
 
 
 def headroom(axes: "Axes", labels: list[str]) -> None:
