@@ -23,7 +23,17 @@ def test_simulate_is_a_function_after_every_module_was_imported():
         "import importlib, pkgutil, shoal\n"
         "for module in pkgutil.walk_packages(shoal.__path__, 'shoal.'):\n"
         "    if '__main__' not in module.name: importlib.import_module(module.name)\n"
-        "names = [name for name in shoal.__all__ if name[0].islower()]\n"
+        "names = [name for name in shoal.__all__ if name[0].islower() and name != 'plot']\n"
         "assert all(callable(getattr(shoal, name)) for name in names)"
+    )
+    subprocess.run([sys.executable, "-c", script], check=True)
+
+
+def test_plot_is_there_at_first_use_and_matplotlib_at_the_first_figure():
+    script = (
+        "import sys, shoal\n"
+        "assert 'shoal.plot' not in sys.modules\n"
+        "assert callable(shoal.plot.snapshot)\n"
+        "assert 'matplotlib' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", script], check=True)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from shoal.version import VERSION as __version__  # noqa: N811 (the name every package has)
 
 if TYPE_CHECKING:
+    from shoal import plot
     from shoal.core.draws import normal, uniform
     from shoal.core.errors import ShoalError
     from shoal.core.kernel import kernel
@@ -55,6 +56,7 @@ __all__ = [
     "load_results",
     "normal",
     "open_record",
+    "plot",
     "presets",
     "save_record",
     "simulate",
@@ -65,7 +67,9 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Import on first use: `import shoal` and `shoal --help` load no compiler."""
+    """Import on first use: `import shoal` and `shoal --help` load neither compiler nor plots."""
+    if name == "plot":
+        return import_module("shoal.plot")
     if name not in _HOME_OF:
         raise AttributeError(f"module 'shoal' has no attribute {name!r}; it has: {', '.join(__all__)}")
     value = getattr(import_module(_HOME_OF[name]), name)

@@ -1,1 +1,276 @@
-"""Publication-ready figures of records and sweeps (extra: plots)."""
+"""Publication-ready figures of records and sweeps: SVG, PNG or PDF, one look, safe for color-blind readers.
+
+Each function takes the data and returns a matplotlib Figure that no window knows; with `axes` it draws there instead,
+in our look, and returns the figure of those (extra: plots; films: video).
+
+>>> import shoal
+>>> record = shoal.open_record("DIR")
+>>> shoal.plot.save(shoal.plot.snapshot(record, links=True), "snapshot.svg")
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from shoal.core.errors import RecordError, ScenarioError
+from shoal.experiments.replicate import LIST_COLUMNS, Row
+from shoal.experiments.results import aggregate, read_rows
+from shoal.metrics.summary import METRICS
+from shoal.record.files import open_record
+from shoal.record.record import Record
+from shoal.simulation import Simulation
+from shoal.viz.arena import arena_aspect
+from shoal.viz.curves import draw_batches
+from shoal.viz.files import save_figure
+from shoal.viz.film import Film, FilmLook, write_film
+from shoal.viz.footage import present
+from shoal.viz.histogram import draw_phi_histogram
+from shoal.viz.layout import snapshot_size
+from shoal.viz.legend import legend_height, map_legend_height, short_name
+from shoal.viz.snapshot import draw_snapshot, frames_of
+from shoal.viz.stretch import frame_of
+from shoal.viz.style import new_figure, style
+from shoal.viz.summary import summary_figure
+from shoal.viz.sweep import Curve, draw_sweep, sweep_page
+from shoal.viz.trajectory_map import draw_trajectory_map
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = [
+    "Film",
+    "FilmLook",
+    "curves",
+    "phi_histogram",
+    "save",
+    "snapshot",
+    "summary",
+    "time_on_target",
+    "trajectory_map",
+    "write_film",
+]
+
+AnyRecord = Record | str | Path
+Page = tuple[tuple[float, float, float, float], float, float]  # [inch] axes; room right of and above them
+_PHI = (0.62, 0.74, 3.6, 2.3)  # [inch] left, bottom, width and height of a histogram alone
+_CHART = (0.62, 0.48, 3.6, 2.3)  # of a chart with one line of labels below
+_TOP, _RIGHT = 0.35, 0.2
+_RUN_COLUMNS = ("run_id", "run", "seed", "scenario_hash", "status", "error", "started", "seconds")
+
+
+def snapshot(
+    what: AnyRecord | Simulation,
+    *,
+    run: int | None = None,
+    step: int | None = None,
+    links: bool = False,
+    trail: int | None = None,
+    halos: bool = False,
+    sensors: bool = False,
+    axes: "Axes | None" = None,
+) -> "Figure":
+    """The swarm at one step, seen from above: `plot.snapshot(record, step=4990, links=True)`.
+
+    Parameters
+    ----------
+    what : a record or its folder, or a simulation, as it is now
+    run : number of a run that kept a trajectory; default the first of those
+    step : one that was kept; default the last
+    links : draw a line to the k nearest others of each buoy
+    trail : steps of the targets' trails (the buoys' are a third of it), 0 for none
+    halos, sensors : draw discs of radius a_R, circles as wide as sensors reach
+
+    Raises
+    ------
+    RecordError : no such run or step was kept, or there is no a_R or sensor to show
+    """
+    record = present(what) if isinstance(what, Simulation) else _record(what)
+    run = _run(record, run)
+    frame = -1 if step is None else frame_of(np.asarray(frames_of(record, run).step), step)
+    size = _arena_page(record, lambda width: legend_height(record, width, halos=halos, sensors=sensors))
+    return _drawn(axes, size, lambda into: draw_snapshot(into, record, run, frame, links, trail, halos, sensors))
+
+
+def trajectory_map(
+    record: AnyRecord,
+    *,
+    run: int | None = None,
+    start: int | None = None,
+    steps: int | None = None,
+    every: int | None = None,
+    axes: "Axes | None" = None,
+) -> "Figure":
+    """The paths of buoys and targets over a stretch of steps, fading into the past: `plot.trajectory_map(record)`.
+
+    Parameters
+    ----------
+    record : a record or its folder
+    run : number of a run that kept a trajectory; default the first of those
+    start, steps, every : the steps shown; default the last in which the fastest buoy can cross the
+        arena once
+
+    Raises
+    ------
+    RecordError : no such run or steps were kept
+    """
+    record = _record(record)
+    run = _run(record, run)
+    size = _arena_page(record, lambda width: map_legend_height(record, width))
+    return _drawn(axes, size, lambda into: draw_trajectory_map(into, record, run, start, steps, every))
+
+
+def phi_histogram(
+    records: AnyRecord | Sequence[AnyRecord] | Mapping[str, AnyRecord], *, axes: "Axes | None" = None
+) -> "Figure":
+    """Who heads where relative to the target, Eq. 8: `plot.phi_histogram({"k = 10": low, "k = 40": high})`.
+
+    Parameters
+    ----------
+    records : a record or its folder; or several, side by side on one scale, named by the keys or by their scenarios
+    axes : of one record only
+    """
+    if isinstance(records, (Record, str, Path)):
+        record = _record(records)
+        return _drawn(axes, (_PHI, _RIGHT, _TOP), lambda into: draw_phi_histogram(into, record))
+    named = records.items() if isinstance(records, Mapping) else [(None, each) for each in records]
+    panels = [(name, _record(each)) for name, each in named]
+    if axes is not None or not panels:
+        raise RecordError("records", f"are {len(panels)}", "give one record to draw into axes, and one or more without")
+    with style():
+        left, bottom, width, height = _PHI
+        across, tall = len(panels) * (left + width) + _RIGHT, bottom + height + _TOP
+        figure = new_figure(across, tall)
+        for number, (name, record) in enumerate(panels):
+            at = number * (left + width) + left
+            panel = figure.add_axes((at / across, bottom / tall, width / across, height / tall))
+            draw_phi_histogram(panel, record)
+            panel.set_title(short_name(name or record.scenario["name"]))
+        top = max(panel.get_ylim()[1] for panel in figure.axes)
+        for panel in figure.axes:
+            panel.set_ylim(0.0, top)
+    return figure
+
+
+def time_on_target(record: AnyRecord, *, axes: "Axes | None" = None) -> "Figure":
+    """Time on target over the course of each run, its mean and interval: `plot.time_on_target(record)`."""
+    record = _record(record)
+    return _drawn(axes, (_CHART, _RIGHT, _TOP), lambda into: draw_batches(into, record))
+
+
+def curves(
+    results: str | Path | Sequence[Row] | Any,
+    *,
+    x: str | None = None,
+    y: str = "time_on_target",
+    hue: str | None = None,
+    axes: "Axes | None" = None,
+) -> "Figure":
+    """A metric of a sweep against a field, with bands of the 95 % interval: `plot.curves("k-sweep", x="neighbors")`.
+
+    Parameters
+    ----------
+    results : a sweep's folder, its rows, or what `shoal.load_results` returns
+    x : field on the horizontal axis; default the numeric one with most values
+    y : metric on the vertical axis
+    hue : field that makes one curve per value; default the next field that varies
+
+    Raises
+    ------
+    ScenarioError : no such field or metric, or no run that ended well
+    """
+    fields, rows = _rows(results)
+    if y not in METRICS:
+        raise ScenarioError(f"y {y}", "is no metric", f"there are: {', '.join(METRICS)}")
+    x = x or _default_x(fields, rows)
+    hue = hue or next((name for name in fields if name != x), None)
+    names = [name for name in (hue, x) if name]
+    unknown = [name for name in names if rows and name not in rows[0]]
+    if unknown:
+        raise ScenarioError(f"field {unknown[0]}", "is none of this sweep", f"there are: {', '.join(fields)}")
+    made: dict[Any, Curve] = {}
+    for group in aggregate(rows, names, [y]):
+        label = f"{hue} {group[hue]}".replace("_", " ") if hue else ""
+        curve = made.setdefault(label, Curve(label, [], [], [], []))
+        curve.x.append(group[x])
+        curve.mean.append(group[y])
+        curve.low.append(group[f"{y}_low"])
+        curve.high.append(group[f"{y}_high"])
+    if not made:
+        raise ScenarioError("results", "hold no run that ended well", "see the column error, mend it, run them again")
+    labels = x.replace("_", " "), y.replace("_", " "), METRICS[y].unit
+    if axes is None:
+        return sweep_page(list(made.values()), *labels)
+    return _drawn(axes, (_CHART, _RIGHT, _TOP), lambda into: draw_sweep(into, list(made.values()), *labels))
+
+
+def summary(record: AnyRecord) -> "Figure":
+    """A record on one page, as `shoal run --figure` draws it: `plot.summary(record)`."""
+    return summary_figure(_record(record))
+
+
+def save(figure: "Figure", path: str | Path) -> None:
+    """Write a figure as .png, .svg or .pdf; the same figure gives the same bytes: `plot.save(figure, "fig.svg")`.
+
+    Raises
+    ------
+    ShoalError : another suffix
+    RecordError : the file cannot be written; what was there before is untouched
+    """
+    save_figure(figure, path)
+
+
+def _record(what: AnyRecord) -> Record:
+    if isinstance(what, (str, Path)):
+        return open_record(what)
+    if not isinstance(what, Record):
+        raise RecordError(type(what).__name__, "is no record", "give what shoal.simulate returns, or a record's folder")
+    return what
+
+
+def _run(record: Record, run: int | None) -> int:
+    """The run asked for, or the first that kept a trajectory."""
+    return min(record.trajectories, default=0) if run is None else run
+
+
+def _arena_page(record: Record, legend: Callable[[float], float]) -> Page:
+    """Where the arena is on a page of its own [inch], and the room right of and above it."""
+    width, height = snapshot_size(arena_aspect(record.scenario["area"]))
+    return (0.62, 0.55, width, height), 0.15, 0.3 + legend(width)
+
+
+def _drawn(
+    axes: "Axes | None",
+    page: Page,
+    draw: "Callable[[Axes], None]",
+) -> "Figure":
+    """Draw into axes, or into new ones on a page that fits them."""
+    with style():
+        if axes is None:
+            (left, bottom, width, height), right, top = page
+            across, tall = left + width + right, bottom + height + top
+            axes = new_figure(across, tall).add_axes((left / across, bottom / tall, width / across, height / tall))
+        draw(axes)
+        figure = axes.get_figure(root=True)
+        assert figure is not None  # axes have one
+        return figure
+
+
+def _rows(results: Any) -> tuple[list[str], list[Row]]:
+    """The fields that vary, and the rows."""
+    if isinstance(results, (str, Path)):
+        return read_rows(results)
+    rows = [{"status": "done", **row} for row in getattr(results, "to_dict", lambda _: results)("records")]
+    names = list(rows[0]) if rows else []
+    fields = [name for name in names if name not in METRICS and name not in (*LIST_COLUMNS, *_RUN_COLUMNS)]
+    return [name for name in fields if len({str(row[name]) for row in rows}) > 1], rows
+
+
+def _default_x(fields: list[str], rows: list[Row]) -> str:
+    numeric = [name for name in fields if all(isinstance(row[name], (int, float)) for row in rows)]
+    if not numeric:
+        known = f"choose one of: {', '.join(fields)}" if fields else "vary one, such as --vary neighbors=10,20,30"
+        raise ScenarioError("x", "no varied field is a number", known)
+    return max(numeric, key=lambda name: len({row[name] for row in rows}))

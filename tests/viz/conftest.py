@@ -58,7 +58,8 @@ def make_record():
         return Record(
             scenario={
                 "name": "by-hand", "steps": STEPS, "area": {"width": width, "height": height, "agent_margin": margin},
-                "network": {"neighbors": 1}, "strategy": {"name": "knn-pso"}, "targets": targets,
+                "fleets": [{"name": name, "neighbors": None, "sensor_radius": 0.0} for name in names],
+                "network": {"neighbors": 1, "range": None}, "strategy": {"name": "knn-pso"}, "targets": targets,
             },
             facts=Facts(tuple(names), tuple(counts), tuple(speeds), max(width, height) / 20, 0.1),
             tallies=tuple(tally(counts, on_target=on_target[run % 2], present=present) for run in range(runs)),
@@ -79,8 +80,8 @@ def axes():
 
 
 def marks(axes, gid):
-    """The artists of axes that carry a name."""
-    return axes.findobj(lambda artist: artist.get_gid() == gid)
+    """The artists of axes that carry a name and are seen."""
+    return axes.findobj(lambda artist: artist.get_gid() == gid and artist.get_visible())
 
 
 @pytest.fixture(name="marks")

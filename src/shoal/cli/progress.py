@@ -12,11 +12,11 @@ SECONDS_BETWEEN_LINES = 5.0
 
 
 @contextmanager
-def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
+def progress_bar(what: str, unit: str = "steps") -> Iterator[Callable[[int, int], None]]:
     """Yield a function to call as update(done, total) from any thread."""
     console = Console(file=sys.stderr)
     if not console.is_terminal:
-        yield _line_printer(what)
+        yield _line_printer(what, unit)
         return
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
     with Progress(*columns, TimeElapsedColumn(), TimeRemainingColumn(), console=console, transient=True) as bar:
@@ -30,13 +30,13 @@ def note(message: str) -> None:
     sys.stderr.flush()
 
 
-def _line_printer(what: str) -> Callable[[int, int], None]:
+def _line_printer(what: str, unit: str) -> Callable[[int, int], None]:
     last = time.monotonic()
 
     def update(done: int, total: int) -> None:
         nonlocal last
         if time.monotonic() - last >= SECONDS_BETWEEN_LINES:
             last = time.monotonic()
-            note(f"{what}: {100 * done / total:.0f} % ({done:,} of {total:,} steps)")
+            note(f"{what}: {100 * done / total:.0f} % ({done:,} of {total:,} {unit})")
 
     return update

@@ -73,39 +73,11 @@ def plot(
     out
         Picture to draw (.png, .svg or .pdf); default plot.png in the folder.
     """
-    from shoal.core.errors import ScenarioError
-    from shoal.experiments.results import aggregate, read_rows
-    from shoal.metrics.summary import METRICS
-    from shoal.viz.files import save_figure
-    from shoal.viz.sweep import Curve, sweep_figure
+    from shoal.plot import curves, save
 
-    fields, rows = read_rows(folder)
-    if y not in METRICS:
-        raise ScenarioError(f"--y {y}", "is no metric", f"there are: {', '.join(METRICS)}")
-    x = x or _default_x(fields, rows)
-    hue = hue or next((name for name in fields if name != x), None)
-    names = [name for name in (hue, x) if name]
-    curves: dict[Any, Curve] = {}
-    for group in aggregate(rows, names, [y]):
-        label = f"{hue} {group[hue]}".replace("_", " ") if hue else ""
-        curve = curves.setdefault(label, Curve(label, [], [], [], []))
-        curve.x.append(group[x])
-        curve.mean.append(group[y])
-        curve.low.append(group[f"{y}_low"])
-        curve.high.append(group[f"{y}_high"])
-    figure = sweep_figure(list(curves.values()), x.replace("_", " "), y.replace("_", " "), METRICS[y].unit)
     target = out or folder / "plot.png"
-    save_figure(figure, target)
+    save(curves(folder, x=x, y=y, hue=hue), target)
     note(f"figure: {target}")
-
-
-def _default_x(fields: list[str], rows: list[dict[str, Any]]) -> str:
-    from shoal.core.errors import ScenarioError
-
-    numeric = [name for name in fields if all(isinstance(row[name], (int, float)) for row in rows)]
-    if not numeric:
-        raise ScenarioError("--x", "no varied field is a number", f"choose one of: {', '.join(fields)}")
-    return max(numeric, key=lambda name: len({row[name] for row in rows}))
 
 
 def _print_groups(groups: list[dict[str, Any]], by: list[str]) -> None:

@@ -9,7 +9,7 @@ from cyclopts import Parameter
 
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
-from shoal.cli.startup import load_compiler
+from shoal.cli.startup import load_compiler, tell_of_compiling
 
 
 def run(
@@ -75,9 +75,7 @@ def run(
     load_compiler()
     from shoal.core.errors import ScenarioError
     from shoal.runs import simulate
-    from shoal.scenario.crew import crew_of
     from shoal.scenario.load import read_table, scenario_from
-    from shoal.simulation import engine_is_compiled, needs_compiling
 
     changes: dict[str, Any] = {
         "agents": agents,
@@ -99,19 +97,15 @@ def run(
     asked = read_table(scenario).get("network", {}).get("neighbors")
     if agents and neighbors is None and isinstance(asked, int) and asked >= chosen.agents:
         note(f"k is {chosen.network.neighbors} instead of {asked}: {chosen.agents} agents have no more neighbors")
-    if needs_compiling(chosen):
-        crew, seconds = crew_of(chosen), 5 if engine_is_compiled() else 20
-        once = "once per version of Shoal" if crew.builtin else "a file of yours is compiled every time"
-        note(f"compiling the engine for strategy {crew.name!r} (about {seconds} s, {once})")
+    tell_of_compiling(chosen)
     with progress_bar(f"{chosen.name}, {runs} x {chosen.steps:,} steps") as progress:
         record = simulate(chosen, runs=runs, jobs=jobs, every=every, out=out, progress=progress)
     for each in record.provenance["notes"]:
         note(each)
     if figure:
-        from shoal.viz.files import save_figure
-        from shoal.viz.summary import summary_figure
+        from shoal.plot import save, summary
 
-        save_figure(summary_figure(record), figure)
+        save(summary(record), figure)
         note(f"figure: {figure}")
     if out:
         note(f"record: {out} (shoal show {out})")

@@ -33,10 +33,9 @@ def show(
 
     opened = open_record(record)
     if figure:
-        from shoal.viz.files import save_figure
-        from shoal.viz.summary import summary_figure
+        from shoal.plot import save, summary
 
-        save_figure(summary_figure(opened), figure)
+        save(summary(opened), figure)
         note(f"figure: {figure}")
     if json_:
         sys.stdout.write(json.dumps(opened.summary()) + "\n")

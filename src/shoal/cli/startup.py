@@ -1,6 +1,12 @@
-"""What the command line does to start sooner."""
+"""What the command line does to start sooner, and what it says while it cannot."""
 
 import sys
+from typing import TYPE_CHECKING
+
+from shoal.cli.progress import note
+
+if TYPE_CHECKING:
+    from shoal.scenario.schema import Scenario
 
 
 def load_compiler() -> None:
@@ -16,3 +22,14 @@ def load_compiler() -> None:
         import numba.np.arraymath  # noqa: F401
     finally:
         del sys.modules[wanted]
+
+
+def tell_of_compiling(scenario: "Scenario") -> None:
+    """Say so if the first step will compile the engine for this strategy."""
+    from shoal.scenario.crew import crew_of
+    from shoal.simulation import engine_is_compiled, needs_compiling
+
+    if needs_compiling(scenario):
+        crew, seconds = crew_of(scenario), 5 if engine_is_compiled() else 20
+        once = "once per version of Shoal" if crew.builtin else "a file of yours is compiled every time"
+        note(f"compiling the engine for strategy {crew.name!r} (about {seconds} s, {once})")

@@ -20,7 +20,8 @@ from shoal.paper.figures_series import (
 )
 from shoal.paper.plan import AGENTS, MIXED
 from shoal.paper.results import Figure, Row
-from shoal.viz.style import INK, fleet_color, new_figure, style
+from shoal.viz.histogram import PHI_EDGES, draw_phi_bars, label_phi
+from shoal.viz.style import INK, new_figure, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,8 +31,6 @@ _FLEETS = ("fast (BoB-1)", "slow (BoB-0)")
 _STATIONARY = Quantity("stationary", "stationary agents", "%", 100.0)
 _UNIT = "agents per step"
 _PHI = [round(center, 3) for center in CENTERS.tolist()]
-_MIDDLE = (CENTERS[:-1] + CENTERS[1:]) / 2
-EDGES = np.concatenate([[-1.0], _MIDDLE, [1.0]])
 
 
 def phi_figure(rows: Sequence[Row]) -> Figure | None:
@@ -58,7 +57,7 @@ def phi_figure(rows: Sequence[Row]) -> Figure | None:
         for axes, fast in zip(panels[0], swarms, strict=True):
             axes.set_title(swarm_text(fast).capitalize())
         for axes in panels[-1]:
-            _label_phi(axes)
+            label_phi(axes, "still or across")
         figure.supylabel("mean agents per step", fontsize=8.5)
         handles, names = _legend(panels[0, 0])
         figure.legend(handles, names, loc="outside upper left", ncols=len(names), borderaxespad=0.2)
@@ -84,20 +83,14 @@ def _draw_panel(axes: "Axes", cell: Sequence[Row], labels: dict[str, Any]) -> li
     if not cell:
         return []
     fleets = _by_fleet(cell, labels["fast"])
-    base: npt.NDArray[np.float64] = np.zeros(CENTERS.size)
-    data: list[Row] = []
-    for fleet, heights in fleets.items():
-        axes.bar(
-            EDGES[:-1], heights, np.diff(EDGES), base, align="edge", color=fleet_color(fleet), edgecolor="white",
-            linewidth=0.5, label=_FLEETS[fleet],
-        )  # fmt: skip
-        base = base + heights
-        data += [
-            {**labels, "agents": _FLEETS[fleet], "phi": at, "unit": _UNIT, "mean": height, "runs": len(cell)}
-            for at, height in zip(_PHI, heights.tolist(), strict=True)
-        ]
+    draw_phi_bars(axes, list(fleets.values()), [_FLEETS[fleet] for fleet in fleets], list(fleets))
+    data: list[Row] = [
+        {**labels, "agents": _FLEETS[fleet], "phi": at, "unit": _UNIT, "mean": height, "runs": len(cell)}
+        for fleet, heights in fleets.items()
+        for at, height in zip(_PHI, heights.tolist(), strict=True)
+    ]
     totals = intervals(list(np.array([row["phi_histogram"] for row in cell]).T))
-    for left, right, at, (mean, low, high) in zip(EDGES[:-1], EDGES[1:], _PHI, totals, strict=True):
+    for left, right, at, (mean, low, high) in zip(PHI_EDGES[:-1], PHI_EDGES[1:], _PHI, totals, strict=True):
         axes.vlines((left + right) / 2, low, high, color=INK, linewidth=0.9)
         data.append({**labels, "agents": "all", "phi": at, "unit": _UNIT, "mean": mean,
                      "low": low, "high": high, "runs": len(cell)})  # fmt: skip
@@ -113,13 +106,6 @@ def _by_fleet(cell: Sequence[Row], fast: int) -> dict[int, npt.NDArray[np.float6
     mean = np.mean([row["fleet_phi_histogram"] for row in cell], axis=0)
     numbers = [fleet for fleet, count in enumerate((fast, AGENTS - fast)) if count]
     return dict(zip(numbers, mean, strict=True))
-
-
-def _label_phi(axes: "Axes") -> None:
-    axes.set_xlim(-1.02, 1.02)
-    axes.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
-    axes.set_xticklabels(["\u22121\naway", "\u22120.5", "0\nstill or across", "0.5", "1\ntoward"])
-    axes.set_xlabel("heading\u2013bearing correlation φ")
 
 
 def _legend(axes: "Axes") -> tuple[list[Any], list[str]]:

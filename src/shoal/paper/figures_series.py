@@ -11,7 +11,7 @@ from shoal.paper.curves import FEW, intervals
 from shoal.paper.plan import AGENTS
 from shoal.paper.results import Row
 from shoal.scenario.edit import SHORTHANDS
-from shoal.viz.curves import draw_band
+from shoal.viz.curves import draw_curve
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -106,21 +106,7 @@ def curve(
 ) -> None:
     """Draw a series with its band and a marker per cell; a single point gets its interval as a bar."""
     x = x_factor * np.array(points.x)
-    draw_band(axes, x, points.mean, points.low, points.high, "", color)
-    if len(x) == 1:
-        axes.vlines(x, points.low, points.high, color=color, linewidth=1.4)
-    axes.lines[-1].set_linewidth(2.2 if bold else 1.3)
-    axes.plot(x, points.mean, marker, color=color, markersize=3.8 if bold else 3.0, markeredgewidth=0, zorder=3)
-    axes.plot(
-        [],
-        [],
-        f"{marker}-",
-        color=color,
-        markersize=4.5,
-        markeredgewidth=0,
-        linewidth=2.2 if bold else 1.3,
-        label=label,
-    )  # for the legend
+    draw_curve(axes, x, points.mean, points.low, points.high, label, color, marker, bold)
 
 
 def show_means(axes: "Axes", rows: Iterable[Row]) -> None:

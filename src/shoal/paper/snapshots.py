@@ -1,6 +1,6 @@
 """Moments of a real run that the paper shows as pictures, found by rule and not by hand."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -10,7 +10,7 @@ from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.scenario.load import load
 from shoal.scenario.schema import Scenario
-from shoal.simulation import Simulation, facts_of
+from shoal.viz.footage import footage
 
 STEPS = 20_000  # searched for the moments
 _ROUNDING = 1e-9  # [m] a_R climbs in steps that do not add up exactly
@@ -41,11 +41,7 @@ class Clustering(NamedTuple):
 
 def watch(scenario: Scenario | None = None, steps: int = STEPS, run: int = 0) -> Record:
     """Run the paper's mixed swarm (or another scenario), and return the record with every frame kept."""
-    scenario = scenario or load("oceans2020")
-    simulation = Simulation(scenario, run)
-    frames = simulation.advance(steps, every=1)
-    content: dict[str, Any] = scenario.model_dump(mode="json")
-    return Record(content, facts_of(scenario), (simulation.tally,), {}, {run: frames} if frames else {})
+    return footage(scenario or load("oceans2020"), steps, run=run)
 
 
 def find_locked(record: Record, run: int = 0) -> Locked:

@@ -17,20 +17,21 @@ KILOMETERS_FROM = 2000.0  # [m] longer side from which axes count in km
 PAD = 0.025  # of the longer side, around the arena
 
 
-def draw_arena(axes: "Axes", area: Mapping[str, Any]) -> None:
+def draw_arena(axes: "Axes", area: Mapping[str, Any], pad: float = PAD) -> None:
     """Draw the edge and, dashed, the line that agents are kept inside of; equal scales [m], ticks in m or km.
 
     Parameters
     ----------
     area : width, height, agent_margin [m], as in a scenario
+    pad : room around the arena, as a share of the longer side
     """
     width, height, margin = area["width"], area["height"], area["agent_margin"]
     _rectangle(axes, width, height, color=GRAY, linewidth=1.0, fill=True)
     if margin > 0:
         _rectangle(axes, width - 2 * margin, height - 2 * margin, color=GRAY, linewidth=0.7, linestyle=(0, (4, 3)))
-    pad = PAD * max(width, height)
-    axes.set_xlim(-width / 2 - pad, width / 2 + pad)
-    axes.set_ylim(-height / 2 - pad, height / 2 + pad)
+    room = pad * max(width, height)
+    axes.set_xlim(-width / 2 - room, width / 2 + room)
+    axes.set_ylim(-height / 2 - room, height / 2 + room)
     axes.set_aspect("equal", adjustable="box")
     axes.grid(False)
     for spine in axes.spines.values():
@@ -43,7 +44,7 @@ def draw_scale_bar(axes: "Axes", points: npt.NDArray[np.float64]) -> None:
     left, right = axes.get_xlim()
     bottom, top = axes.get_ylim()
     length = round_length(0.25 * (right - left))
-    pad = 0.06 * max(right - left, top - bottom)
+    pad = 0.045 * min(right - left, top - bottom)
     corners = [(x, y) for y in (bottom + pad, top - 1.5 * pad) for x in (left + pad, right - pad - length)]
 
     def hidden(corner: tuple[float, float]) -> int:
@@ -58,6 +59,12 @@ def draw_scale_bar(axes: "Axes", points: npt.NDArray[np.float64]) -> None:
         length_text(length), (x + length / 2, y), (0, 3), textcoords="offset points", ha="center", va="bottom",
         fontsize=8, color=INK, bbox=box, zorder=8,
     )  # fmt: skip
+
+
+def arena_aspect(area: Mapping[str, Any], pad: float = PAD) -> float:
+    """Width / height of what axes show of an arena."""
+    room = 2 * pad * max(area["width"], area["height"])
+    return float((area["width"] + room) / (area["height"] + room))
 
 
 def round_length(limit: float) -> float:

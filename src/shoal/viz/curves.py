@@ -32,6 +32,30 @@ def draw_band(
     axes.plot(at, middle, color=color, label=label)
 
 
+def draw_curve(
+    axes: "Axes",
+    x: npt.ArrayLike,
+    mean: npt.ArrayLike,
+    low: npt.ArrayLike,
+    high: npt.ArrayLike,
+    label: str,
+    color: str,
+    marker: str,
+    bold: bool = False,
+) -> None:
+    """Draw a curve with its band and a marker per point; a single point gets its interval as a bar."""
+    at, middle, bottom, top = (np.asarray(each, float) for each in (x, mean, low, high))
+    width, size = (2.2, 3.8) if bold else (1.3, 3.0)
+    draw_band(axes, at, middle, bottom, top, "", color)
+    axes.lines[-1].set_linewidth(width)
+    if at.size == 1:
+        axes.vlines(at, bottom, top, color=color, linewidth=1.4)
+    axes.plot(at, middle, marker, color=color, markersize=size, markeredgewidth=0, zorder=3)
+    axes.plot(
+        [], [], f"{marker}-", color=color, markersize=4.5, markeredgewidth=0, linewidth=width, label=label
+    )  # for the legend
+
+
 def draw_batches(axes: "Axes", record: Record) -> None:
     """Draw time on target in consecutive batches of each run, the mean over all steps and its 95 % interval.
 

@@ -7,7 +7,7 @@ from uuid import uuid4
 
 from shoal.core.errors import RecordError, ShoalError
 from shoal.version import VERSION
-from shoal.viz.style import style
+from shoal.viz.style import RC, style
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -20,8 +20,12 @@ _NO_DATES: dict[str, dict[str, str | None]] = {
 }
 
 
-def save_figure(figure: "Figure", path: str | Path) -> None:
+def save_figure(figure: "Figure", path: str | Path, dpi: float | None = None) -> None:
     """Write a figure to a file; its suffix, .png, .svg or .pdf, says how. A file of this name is replaced.
+
+    Parameters
+    ----------
+    dpi : pixels per inch of a .png; default 200
 
     Raises
     ------
@@ -34,7 +38,9 @@ def save_figure(figure: "Figure", path: str | Path) -> None:
     partial = file.with_name(f".{file.name}.{uuid4().hex}.partial")
     try:
         with style(), partial.open("xb") as stream:
-            figure.savefig(stream, format=kind, facecolor="white", metadata=_NO_DATES[kind])
+            figure.savefig(
+                stream, format=kind, dpi=dpi or RC["savefig.dpi"], facecolor="white", metadata=_NO_DATES[kind]
+            )
         partial.replace(file)
     except OSError as error:
         raise _unwritable(file, error) from error

@@ -5,47 +5,62 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shoal.record.record import Record
-from shoal.viz.style import INK, TARGET, fleet_color, fleet_marker
+from shoal.viz.style import GRAY, INK, TARGET, fleet_color, fleet_marker
 from shoal.viz.words import shorten
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 ROW = 0.18  # [inch] height of a row
-_LETTER, _SIGN = 0.056, 0.36  # [inch] width of a letter; of a sign and the space around it
+_LETTER, _SIGN = 0.058, 0.42  # [inch] width of a letter; of a sign and the space around it
 _LONGEST = 26  # letters of a name
+_HALO, _SENSOR = "repulsion a_R", "sensor"
 
 
-def draw_legend(axes: "Axes", record: Record) -> float:
-    """Name the signs of a snapshot above it; return the height taken [inch]."""
-    from matplotlib.lines import Line2D
+def draw_legend(
+    axes: "Axes",
+    record: Record,
+    *,
+    halos: bool = False,
+    sensors: bool = False,
+    width: float | None = None,
+    shift: float = 0.0,
+) -> float:
+    """Name the signs of a snapshot above it; return the height taken [inch].
 
-    width = _inches(axes)[0]
-
-    def sign(label: str, marker: str, **look: Any) -> Line2D:
-        return Line2D([], [], linestyle="none", marker=marker, label=label, **look)
-
-    signs = [
-        sign(
-            label, fleet_marker(fleet), color=fleet_color(fleet), markersize=max(4.0, marker_area(record, fleet) ** 0.5)
-        )
-        for fleet, label in enumerate(_fleet_labels(record))
-    ]
+    Parameters
+    ----------
+    halos, sensors : whether there are discs of these
+    width, shift : room for the legend, and how far it begins left of the axes [inch]; default: that of the axes
+    """
+    signs = _fleet_signs(record)
     signs.append(
-        sign("on target", "o", markerfacecolor="white", markeredgecolor=INK, markeredgewidth=1.3, markersize=6)
+        _sign("on target", "o", markerfacecolor="white", markeredgecolor=INK, markeredgewidth=1.3, markersize=6)
     )
-    signs.append(sign("target", "o", markerfacecolor=TARGET + "38", markeredgecolor=TARGET, markersize=8))
-    axes.legend(
-        handles=signs, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=_columns(_snapshot_labels(record), width),
-        borderaxespad=0.2, borderpad=0.2,
-    )  # fmt: skip
-    return legend_height(record, width)
+    signs.append(_target_sign())
+    if halos:
+        face, edge = fleet_color(0) + "17", fleet_color(0) + "60"
+        signs.append(_sign(_HALO, "o", markerfacecolor=face, markeredgecolor=edge, markersize=11))
+    if sensors:
+        signs.append(_sign(_SENSOR, "o", markerfacecolor="none", markeredgecolor=GRAY, markersize=9))
+    return _above(axes, signs, width, shift)
 
 
-def legend_height(record: Record, width: float) -> float:
+def draw_map_legend(axes: "Axes", record: Record) -> float:
+    """Name the signs of a trajectory map above it; return the height taken [inch]."""
+    ring = _sign("start", "o", markerfacecolor="white", markeredgecolor=GRAY, markersize=4)
+    return _above(axes, [*_fleet_signs(record), _target_sign(), ring])
+
+
+def legend_height(record: Record, width: float, *, halos: bool = False, sensors: bool = False) -> float:
     """Height of the legend above a snapshot of a width [inch]."""
-    labels = _snapshot_labels(record)
+    labels = [*_fleet_labels(record), "on target", "target", *[_HALO] * halos, *[_SENSOR] * sensors]
     return ROW * _rows(labels, width)
+
+
+def map_legend_height(record: Record, width: float) -> float:
+    """Height of the legend above a trajectory map of a width [inch]."""
+    return ROW * _rows([*_fleet_labels(record), "target", "start"], width)
 
 
 def headroom(axes: "Axes", labels: list[str]) -> None:
@@ -77,13 +92,40 @@ def short_name(name: str) -> str:
     return shorten(name.lstrip("_") or "fleet", _LONGEST)  # matplotlib hides labels that begin with _
 
 
+def _sign(label: str, marker: str, **look: Any) -> Any:
+    from matplotlib.lines import Line2D
+
+    return Line2D([], [], linestyle="none", marker=marker, label=label, **look)
+
+
+def _fleet_signs(record: Record) -> list[Any]:
+    return [
+        _sign(
+            label, fleet_marker(fleet), color=fleet_color(fleet), markersize=max(4.0, marker_area(record, fleet) ** 0.5)
+        )
+        for fleet, label in enumerate(_fleet_labels(record))
+    ]
+
+
+def _target_sign() -> Any:
+    return _sign("target", "o", markerfacecolor=TARGET + "38", markeredgecolor=TARGET, markersize=8)
+
+
+def _above(axes: "Axes", signs: list[Any], width: float | None = None, shift: float = 0.0) -> float:
+    """Put a legend above axes; return its height [inch]."""
+    wide = _inches(axes)[0]
+    width = width or wide
+    labels = [str(sign.get_label()) for sign in signs]
+    axes.legend(
+        handles=signs, loc="lower left", bbox_to_anchor=(-shift / wide, 1.0), ncols=_columns(labels, width),
+        borderaxespad=0.2, borderpad=0.2,
+    )  # fmt: skip
+    return ROW * _rows(labels, width)
+
+
 def _fleet_labels(record: Record) -> list[str]:
     facts = record.facts
     return [f"{short_name(name)}, {speed:.3g} m/s" for name, speed in zip(facts.fleets, facts.max_speeds, strict=True)]
-
-
-def _snapshot_labels(record: Record) -> list[str]:
-    return [*_fleet_labels(record), "on target", "target"]
 
 
 def _columns(labels: list[str], width: float) -> int:

@@ -4,7 +4,7 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 from shoal.record.record import Record
-from shoal.viz.arena import PAD
+from shoal.viz.arena import arena_aspect
 from shoal.viz.curves import draw_batches
 from shoal.viz.histogram import draw_phi_histogram
 from shoal.viz.layout import Boxes, lay_out, snapshot_size
@@ -33,7 +33,7 @@ def summary_figure(record: Record) -> "Figure":
         setup = _wrap(setup_phrases(record))
         footer = _wrap(metric_phrases(record)) + _wrap([interval_text(record), *provenance_phrases(record)])
         run = min(record.trajectories, default=None)
-        aspect = _aspect(record) if run is not None else None
+        aspect = arena_aspect(record.scenario["area"]) if run is not None else None
         legend = legend_height(record, snapshot_size(aspect)[0]) if aspect else 0.0
         boxes = lay_out(aspect, 0.55 + _LINE * len(setup), 0.2 + _LINE * len(footer), legend)
         figure = new_figure(boxes.width, boxes.height)
@@ -43,13 +43,6 @@ def summary_figure(record: Record) -> "Figure":
         draw_phi_histogram(figure.add_axes(boxes.fraction(boxes.histogram)), record)
         draw_batches(figure.add_axes(boxes.fraction(boxes.curves)), record)
     return figure
-
-
-def _aspect(record: Record) -> float:
-    """Width / height of what a snapshot of a record shows."""
-    area = record.scenario["area"]
-    pad = 2 * PAD * max(area["width"], area["height"])
-    return float((area["width"] + pad) / (area["height"] + pad))
 
 
 def _wrap(phrases: list[str]) -> list[str]:

@@ -104,11 +104,13 @@ def provenance_phrases(record: Record) -> list[str]:
 
 
 def _speed_text(target: dict[str, Any]) -> str:
-    if target["kind"] == "waypoint":
-        return f"{target['speed']:.3g} m/s"
+    """How a target moves; the paper's, by waypoints, goes without saying."""
     if target["kind"] == "track":
         return f"recorded ({target['id']})" if target.get("id") else "recorded"
-    return "still"
+    if "speed" not in target:
+        return str(target["kind"])
+    kind = "" if target["kind"] == "waypoint" else f"{target['kind']} "
+    return f"{kind}{target['speed']:.3g} m/s"
 
 
 def _decimals(half: float) -> int:

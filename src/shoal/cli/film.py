@@ -1,0 +1,162 @@
+"""shoal film: a record or a scenario as a film, or as a still."""
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
+
+from shoal.cli.options import edited_table
+from shoal.cli.progress import note, progress_bar
+from shoal.cli.startup import load_compiler, tell_of_compiling
+from shoal.core.errors import ScenarioError
+
+if TYPE_CHECKING:
+    from shoal.record.record import Record
+
+_STEPS = 600  # of a scenario, if nobody says otherwise
+
+_No = Parameter(negative=())
+
+
+def film(
+    source: str,
+    /,
+    *,
+    out: Path,
+    start: int | None = None,
+    steps: int | None = None,
+    every: int | None = None,
+    step: int | None = None,
+    seconds: float | None = None,
+    fps: float | None = None,
+    size: str | None = None,
+    run: int = 0,
+    links: Annotated[bool, _No] = False,
+    trails: bool = True,
+    halos: Annotated[bool, _No] = False,
+    sensors: Annotated[bool, _No] = False,
+    panels: Annotated[bool, _No] = False,
+    seed: int | None = None,
+    assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
+) -> None:
+    """Make a film (.mp4, .gif) or a still (.png) of a record, or of a scenario, which is run for it.
+
+    Parameters
+    ----------
+    source
+        Folder made by `shoal run --out`, a preset's name or a TOML file.
+    out
+        File to write; its suffix says what: .mp4, .gif, or .png for a still of the last step shown.
+    start
+        First step shown. Default: of a scenario 0; of a record the last stretch that was kept evenly.
+    steps
+        Steps shown, from --start, or the last ones of a record. Default: of a scenario 600; of a record all.
+    every
+        Show every so many-th step; default 1, or what the record kept.
+    step
+        With .png: the step to show.
+    seconds
+        Length of the film, instead of --steps.
+    fps
+        Frames per second; default 30, of a gif 20.
+    size
+        WIDTHxHEIGHT in pixels, or WIDTH alone: the arena then decides the height. Default 720, of a gif 480; half as
+        much again with --panels.
+    run
+        Number of the run shown.
+    links
+        Draw a line to the k nearest others of each buoy.
+    trails
+        Draw where buoys and targets were.
+    halos
+        Draw a disc of radius a_R, the repulsion, around each buoy.
+    sensors
+        Draw how far each buoy senses.
+    panels
+        Draw charts beside the arena: who heads where, how many are on target.
+    seed
+        Of a scenario: seed of all chance.
+    assignments
+        Of a scenario: any field by its path, such as network.neighbors=10; may be repeated.
+    """
+    load_compiler()
+    from shoal.viz.film import FilmLook, check_film, default_fps, write_film
+    from shoal.viz.scene import Parts
+
+    width, height = _size(size)
+    look = FilmLook(fps, width, height, Parts(links, trails, halos, sensors), panels)
+    kind = check_film(out, look)
+    _check_numbers(start=start, steps=steps, every=every, step=step, seconds=seconds, run=run)
+    if step is not None:
+        if kind != "png" or (start, steps, every, seconds) != (None,) * 4:
+            raise ScenarioError("--step", "shows one step", "name a .png, and leave --start, --steps and the like out")
+        start, steps = step, 1
+    if seconds is not None:
+        if steps is not None or kind == "png":
+            raise ScenarioError("--seconds", "is the length of a film", "give --seconds or --steps, and no .png")
+        steps = max(1, round(seconds * (fps or default_fps(out)))) * (every or 1)
+    if Path(source).is_dir():
+        record = _opened(source, seed=seed, assignments=assignments)
+    else:
+        table = edited_table(source, {"seed": seed}, assignments or [], None, None)
+        start, record = _filmed(source, table, start or 0, steps, every or 1, run)
+        steps = None  # all that was run from `start` on
+    with progress_bar(f"{out.name}", "frames") as progress:
+        made = write_film(
+            record, out, run=run, start=start, steps=steps, every=every, look=look, progress=progress
+        )  # fmt: skip
+    shown = f"{made.size[0]} x {made.size[1]} pixels"
+    if kind == "png":
+        note(f"still: {out}, step {made.last:,}, {shown}")
+        return
+    apart = f", every {made.every}" if made.every > 1 else ""
+    faster = made.every * record.facts.time_step * made.fps
+    note(
+        f"film: {out}, steps {made.first:,} to {made.last:,}{apart}, {made.frames} frames in "
+        f"{made.frames / made.fps:.1f} s ({faster:.3g} times real time), {shown}"
+    )
+
+
+def _opened(folder: str, **changes: Any) -> "Record":
+    from shoal.record.files import open_record
+
+    changed = [f"--{'set' if name == 'assignments' else name}" for name, value in changes.items() if value is not None]
+    if changed:
+        raise ScenarioError(changed[0], "changes a scenario, and a record is done", "film the scenario instead")
+    return open_record(folder)
+
+
+def _filmed(
+    source: str, table: dict[str, Any], start: int, steps: int | None, every: int, run: int
+) -> tuple[int, "Record"]:
+    """Run a scenario, a little before `start` for the trails; return the first step shown, and the record."""
+    from shoal.scenario.load import scenario_from
+    from shoal.simulation import facts_of
+    from shoal.viz.footage import footage
+    from shoal.viz.scene import trail_steps
+
+    scenario = scenario_from(table, where=source)
+    start = -(-start // every) * every
+    steps = min(_STEPS, max(scenario.steps - start, 1)) if steps is None else steps
+    lead = min(start, -(-trail_steps(facts_of(scenario)) // every) * every)
+    tell_of_compiling(scenario)
+    with progress_bar(f"{scenario.name}, {start + steps:,} steps") as progress:
+        return start, footage(scenario, steps + lead, start=start - lead, every=every, run=run, progress=progress)
+
+
+def _size(text: str | None) -> tuple[int | None, int | None]:
+    """WIDTHxHEIGHT or WIDTH."""
+    if text is None:
+        return None, None
+    numbers = re.fullmatch(r"(\d+)(?:x(\d+))?", text.strip().lower())
+    if not numbers:
+        raise ScenarioError(f"--size {text}", "is no size", "write WIDTHxHEIGHT such as 1280x720, or WIDTH alone")
+    return int(numbers[1]), int(numbers[2]) if numbers[2] else None
+
+
+def _check_numbers(**numbers: float | None) -> None:
+    least = {"start": 0, "step": 0, "run": 0, "steps": 1, "every": 1}
+    for name, number in numbers.items():
+        if number is not None and not number >= least.get(name, 1e-9):
+            raise ScenarioError(f"--{name}", f"is {number:g}", f"ask for {least.get(name, 'more than 0')} or more")
