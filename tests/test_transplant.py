@@ -250,7 +250,9 @@ class TestMoveTarget:
 
     def test_a_recorded_target_follows_its_track(self, tmp_path):
         track = tmp_path / "track.csv"
-        track.write_text("time,lon,lat\n" + "".join(f"2020-01-01T00:00:{s:02d}Z,{s / 1e6},0\n" for s in range(0, 50, 5)))
+        track.write_text(
+            "time,lon,lat\n" + "".join(f"2020-01-01T00:00:{s:02d}Z,{s / 1e6},0\n" for s in range(0, 50, 5))
+        )
         recorded = {
             "targets": [{"kind": "track", "file": str(track), "radius": 1.0}],
             "area": {"width": 20.0, "height": 20.0, "origin": [0.0, 0.0]},

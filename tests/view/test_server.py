@@ -15,6 +15,7 @@ from shoal.view.address import Guard, is_local, names_of, reachable
 from shoal.view.server import page_app, serving, watching
 from shoal.view.session import Session
 
+
 @pytest.fixture
 def address(small_page):
     with watching(Session([read_table("oceans2020")])) as where:
@@ -272,7 +273,9 @@ class TestServing:
 
     def test_without_the_extra_it_says_what_to_install(self, monkeypatch):
         monkeypatch.setattr(server, "find_spec", lambda name: None if name == "uvicorn" else object())
-        with pytest.raises(MissingExtraError, match=r"uvicorn: is not installed.*\n  fix: pip install 'shoal\[viewer\]'"):
+        with pytest.raises(
+            MissingExtraError, match=r"uvicorn: is not installed.*\n  fix: pip install 'shoal\[viewer\]'"
+        ):
             page_app("")
 
     def test_one_page_is_served_by_itself(self):

@@ -176,12 +176,16 @@ class TestChanging:
         with pytest.raises(ScenarioError, match="from 0 to 0"):
             session().obey(parse_request(json.dumps({**request_, "run": 1})))
 
-    def test_it_says_when_it_has_to_compile(self, monkeypatch):
-        monkeypatch.setattr("shoal.view.session.needs_compiling", lambda scenario: True)
+    def test_it_says_that_a_new_strategy_takes_a_while(self):
         one, told = session(), []
         one.on_busy = lambda: told.append(one.busy)
         ask(one, "change", changes={"neighbors": 5})
-        assert told == ["compiling the engine for strategy 'knn-pso', some 10 s", None]
+        assert told == []
+        ask(one, "change", changes={"strategy": "random-walk"})
+        assert told == ["loading strategy 'random-walk'; the very first time it is compiled, for some 10 s", None]
+        ask(one, "change", changes={"strategy": "knn-pso"})
+        ask(one, "change", changes={"strategy": "random-walk"})
+        assert len(told) == 2
 
 
 class TestSideBySide:

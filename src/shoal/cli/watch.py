@@ -126,6 +126,9 @@ def _watch(
         with RecordFolder(out):  # refused now, not after the run
             pass
     session = Session(tables, names=names, speed=speed, limit=scenarios[0].steps if out else None)
+    for run in session.runs:
+        for each in run.simulation.notes:
+            note(each)
     saved: list[Path] = []
 
     def save() -> None:

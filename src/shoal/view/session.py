@@ -6,7 +6,6 @@ from shoal.core.errors import ScenarioError
 from shoal.runs import chunk_steps
 from shoal.scenario.crew import crew_of
 from shoal.scenario.schema import Scenario
-from shoal.simulation import needs_compiling
 from shoal.strategies import CATALOGUE
 from shoal.view.live import LiveRun, Table
 from shoal.view.requests import (
@@ -77,6 +76,7 @@ class Session:
         self.speed = speed
         self.busy: str | None = None
         self.on_busy: Callable[[], None] = lambda: None
+        self._loaded = {run.simulation.crew.name for run in self.runs}
         self._ring = Ring(room)
         self._keep()
 
@@ -173,7 +173,7 @@ class Session:
                 self._ring.clear()
             case Change(run=place, changes=changes):
                 run = self._run(place)
-                self._warn_of_compiling(run.scenario_with(changes)[1])
+                self._warn_of_loading(run.scenario_with(changes)[1])
                 try:
                     run.change(changes)
                 finally:
@@ -203,9 +203,11 @@ class Session:
         self._ring.add(Kept(self.number, scenes, tuple(run.frame() for run in self.runs)))
         self.shown = self._ring.newest
 
-    def _warn_of_compiling(self, scenario: Scenario) -> None:
-        if needs_compiling(scenario):
-            self._set_busy(f"compiling the engine for strategy {crew_of(scenario).name!r}, some 10 s")
+    def _warn_of_loading(self, scenario: Scenario) -> None:
+        name = crew_of(scenario).name
+        if name not in self._loaded:
+            self._set_busy(f"loading strategy {name!r}; the very first time it is compiled, for some 10 s")
+            self._loaded.add(name)
 
     def _set_busy(self, sentence: str | None) -> None:
         if self.busy != sentence:
