@@ -264,11 +264,11 @@ class TestServing:
 
     @pytest.mark.parametrize("host", ["192.0.2.1", "no.such.name.invalid"])
     def test_an_address_that_is_not_ours_is_one_sentence(self, host):
-        with pytest.raises(ShoalError, match="--host: .* is no address of this machine"):
+        with pytest.raises(ShoalError, match=r"--host: .* is no address of this machine"):
             serving(page_app(""), host=host).__enter__()
 
     def test_an_impossible_port_is_one_sentence(self):
-        with pytest.raises(ShoalError, match="0 .* to 65535"):
+        with pytest.raises(ShoalError, match=r"from 0 .* to 65535"):
             serving(page_app(""), port=70_000).__enter__()
 
     def test_without_the_extra_it_says_what_to_install(self, monkeypatch):

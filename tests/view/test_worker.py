@@ -5,13 +5,12 @@ import time
 
 import pytest
 
-from scenarios import changed
 from shoal.core.errors import ScenarioError
 from shoal.scenario.load import read_table, scenario_from
 from shoal.simulation import Simulation
 from shoal.view.requests import parse_request
 from shoal.view.session import Session
-from shoal.view.worker import Watcher, Worker
+from shoal.view.worker import PATIENCE, Watcher, Worker, next_due
 
 SOON = 60.0  # [s] a busy machine may take that long
 
@@ -140,19 +139,13 @@ class TestAsking:
         assert not one.playing
 
 
-def test_a_slow_engine_does_not_hurry_afterwards(monkeypatch):
-    """Time that the engine lost is lost: the run is late, and never faster than its speed."""
-    one = Session([changed(read_table("oceans2020"), {"time_step": 0.02})])
-    plain, made = one.play_on, []
+class TestNextDue:
+    def test_frames_follow_each_other_at_the_speed(self):
+        assert next_due(10.0, now=10.01, lasts=0.1) == pytest.approx(10.1)
 
-    def play_on():
-        if not made:
-            time.sleep(1.0)
-        made.append(time.monotonic())
-        return plain()
+    def test_a_short_delay_is_made_up_for(self):
+        assert next_due(10.0, now=10.2, lasts=0.1) < 10.2
 
-    monkeypatch.setattr(one, "play_on", play_on)
-    with Worker(one):
-        eventually(lambda: len(made) > 40)
-    in_hurry = sum(1 for before, after in zip(made, made[1:], strict=False) if after - before < 0.01)
-    assert in_hurry <= 0.25 / 0.02 + 3  # a quarter of a second is made up for, not the whole
+    def test_a_long_one_is_not(self):
+        """An engine that cannot keep the speed is late, and does not hurry when it can again."""
+        assert next_due(10.0, now=99.0, lasts=0.1) == pytest.approx(99.0 - PATIENCE + 0.1)

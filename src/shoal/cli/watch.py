@@ -1,7 +1,7 @@
 """shoal watch: a run in the browser while it goes on."""
 
 import webbrowser
-from contextlib import ExitStack, suppress
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -136,12 +136,13 @@ def _watch(
             _record(session, out)
             saved.append(out)
 
-    with ExitStack() as stack:
-        worker = stack.enter_context(Worker(session, on_done=save))
-        address = stack.enter_context(serving(live_app(worker), host, port))
+    with (
+        suppress(KeyboardInterrupt),
+        Worker(session, on_done=save) as worker,
+        serving(live_app(worker), host, port) as address,
+    ):
         _announce(address, host, browser)
-        with suppress(KeyboardInterrupt):
-            worker.wait()
+        worker.wait()
     save()
 
 
@@ -165,10 +166,9 @@ def _play_record(folder: str, host: str, port: int, browser: bool) -> None:
     from shoal.view.server import page_app, serving
 
     page = replay_page(open_record(folder))
-    with serving(page_app(page), host, port) as address:
+    with suppress(KeyboardInterrupt), serving(page_app(page), host, port) as address:
         _announce(address, host, browser)
-        with suppress(KeyboardInterrupt):
-            Event().wait()
+        Event().wait()
 
 
 def _other(table: dict[str, Any], against: str) -> dict[str, Any]:

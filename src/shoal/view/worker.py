@@ -35,6 +35,11 @@ class _Asked(NamedTuple):
     watcher: Watcher
 
 
+def next_due(due: float, now: float, lasts: float) -> float:
+    """When the frame that comes is due [s], after one that was due and lasts so long; long delays are forgiven."""
+    return max(due, now - PATIENCE) + lasts
+
+
 class Worker:
     """Runs a session in a thread of its own while it is a context.
 
@@ -106,7 +111,7 @@ class Worker:
             try:
                 asked = self._asked.get(timeout=max(0.0, due - time.monotonic()) if self.session.playing else None)
             except Empty:
-                due = max(due, time.monotonic() - PATIENCE) + self._play_on()
+                due = next_due(due, time.monotonic(), self._play_on())
             else:
                 played = self.session.playing
                 if asked:
