@@ -68,6 +68,15 @@ class TestFrame:
         assert all(frame.alive)
         assert frame.present == [True]
 
+    def test_who_is_on_target_is_so_where_the_frame_shows_it(self):
+        run = live()
+        for _ in range(100):
+            frame = decode(run.frame())
+            away = np.hypot(np.subtract(frame.x, frame.target_x[0]), np.subtract(frame.y, frame.target_y[0]))
+            assert frame.on_target == list(away <= 1.0)
+            assert frame.engaged == sum(frame.on_target)
+            run.advance(3)
+
     def test_means_are_those_of_the_metrics(self):
         run = live(steps=700)
         frame, facts = decode(run.frame()), facts_of(run.simulation.scenario)

@@ -36,7 +36,7 @@ class Step(_Request):
     """Go so many steps on; among older frames, one frame on or back."""
 
     do: Literal["step"]
-    steps: int = Field(default=1, ge=-10_000, le=10_000)
+    steps: int = Field(default=1, ge=-1000, le=1000)
 
 
 class Speed(_Request):
