@@ -92,8 +92,14 @@ class Simulation:
         here, held = put(self._stage(self._new_frames(0)))
         self._phases = Addresses._make(phase.address() for phase in PHASES)
         _set_out(here, places, lifetimes, _losses(scenario), self._seed, run)
+        del held
+        self.begin()
+
+    def begin(self) -> None:
+        """Set up every agent's memory, as its strategy does before the first step."""
+        here, held = put(self._stage(self._new_frames(0)))
         with _compiling(self.crew):
-            self._begin(here, self.minds, self.crew.params, self._seed, run)
+            self._begin(here, self.minds, self.crew.params, self._seed, self.run)
         del held
 
     def advance(self, steps: int, *, every: int | None = None, tail: int | None = None) -> Trajectory | None:

@@ -1,0 +1,48 @@
+"""shoal replay: a record, or a run of a scenario, as one HTML file."""
+
+from pathlib import Path
+from typing import Literal
+
+from shoal.cli.progress import note, progress_bar
+from shoal.cli.startup import load_compiler
+
+
+def replay(
+    source: str,
+    /,
+    *,
+    out: Path,
+    frames: int = 2000,
+    part: Literal["all", "end"] = "all",
+) -> None:
+    """Write a page that plays a record in any browser, by itself: no server, no network.
+
+    Parameters
+    ----------
+    source
+        A record (folder made by --out); or a preset's name or a TOML file, which is run first.
+    out
+        The HTML file to write; one of this name is replaced.
+    frames
+        Frames in the page, at most.
+    part
+        all: spread evenly over the whole run; end: the last steps, every one of them as far as they were kept.
+    """
+    load_compiler()
+    from shoal.core.errors import ScenarioError
+    from shoal.record.files import open_record
+    from shoal.runs import simulate
+    from shoal.scenario.load import load
+    from shoal.view.replay import replay_page, save_page
+
+    if frames < 1:
+        raise ScenarioError("--frames", f"is {frames}", "ask for 1 or more")
+    if Path(source).is_dir():
+        record = open_record(source)
+    else:
+        scenario = load(source)
+        every = max(1, -(-scenario.steps // frames)) if part == "all" else None
+        with progress_bar(f"{scenario.name}, {scenario.steps:,} steps") as progress:
+            record = simulate(scenario, every=every, progress=progress)
+    save_page(replay_page(record, frames=frames, part=part), out)
+    note(f"page: {out} ({out.stat().st_size / 1e6:.1f} MB)")

@@ -1,0 +1,191 @@
+"""shoal watch: a run in the browser while it goes on."""
+
+import webbrowser
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
+
+from shoal.cli.options import edited_table
+from shoal.cli.progress import note, progress_bar
+from shoal.cli.startup import load_compiler
+
+if TYPE_CHECKING:
+    from shoal.view.session import Session
+
+
+def watch(
+    source: str = "oceans2020",
+    /,
+    *,
+    against: str | None = None,
+    neighbors: Annotated[int | None, Parameter(name=["--neighbors", "-k"])] = None,
+    fast: int | None = None,
+    agents: int | None = None,
+    target_speed: str | None = None,
+    steps: int | None = None,
+    seed: int | None = None,
+    strategy: str | None = None,
+    target_track: str | None = None,
+    track_id: str | None = None,
+    assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
+    speed: float = 1.0,
+    host: str = "127.0.0.1",
+    port: int = 0,
+    browser: bool = True,
+    out: Path | None = None,
+) -> None:
+    """Watch a run in the browser and change it while it goes on. Ctrl-C ends it.
+
+    Parameters
+    ----------
+    source
+        A preset's name, a TOML file, or a record (folder made by --out), whose frames are played.
+    against
+        A second run beside it, on the same seed: another preset or file, or a change such as neighbors=5.
+    neighbors
+        k: every agent hears its k nearest others.
+    fast
+        Number of agents of the fastest fleet; the slowest fleet gives or takes the difference.
+    agents
+        Number of agents in all, in the scenario's shares of fleets.
+    target_speed
+        Speed of the waypoint targets: m/s, or with a unit, such as "6 kn".
+    steps
+        Time-steps of a recorded run (--out); without --out a run has no end.
+    seed
+        Seed of all chance.
+    strategy
+        A strategy's name (see `shoal strategies`) or a Python file that defines one.
+    target_track
+        Recorded track to follow instead (CSV, GPX, NetCDF): the arena and all lengths are fitted around it.
+    track_id
+        Which track of the file, as COLUMN=VALUE, such as mmsi=235069877.
+    assignments
+        Any field by its path, such as strategy.delta=0.02; may be repeated.
+    speed
+        Times real time, 0.1 to 1000, to begin with.
+    host
+        Address to serve at; the default can be reached from this machine only.
+    port
+        Port to serve at; 0 takes a free one.
+    browser
+        Open the page in the browser.
+    out
+        Save a record of the steps watched to this new folder, at the end of the run or at Ctrl-C. Nothing can be
+        changed meanwhile: a record is of one scenario.
+    """
+    load_compiler()
+    from shoal.core.errors import ScenarioError
+
+    changes: dict[str, Any] = {
+        "agents": agents,
+        "fast": fast,
+        "strategy": strategy,
+        "neighbors": neighbors,
+        "target-speed": target_speed,
+        "steps": steps,
+        "seed": seed,
+    }
+    if track_id and not target_track:
+        raise ScenarioError("--track-id", "needs --target-track", "name the file that holds the track")
+    if Path(source).is_dir():
+        if against or out or target_track or assignments or any(value is not None for value in changes.values()):
+            raise ScenarioError(source, "is a record, which plays as it is", "watch its scenario to change something")
+        _play_record(source, host, port, browser)
+        return
+    tables = [edited_table(source, changes, assignments or [], target_track, track_id)]
+    if against:
+        if out:
+            raise ScenarioError("--out", "keeps one run, and --against shows two", "leave out one of them")
+        tables.append(_other(tables[0], against))
+    _watch(tables, [source, against or ""], speed, host, port, browser, out)
+
+
+def _watch(
+    tables: list[dict[str, Any]],
+    names: list[str],
+    speed: float,
+    host: str,
+    port: int,
+    browser: bool,
+    out: Path | None,
+) -> None:
+    from shoal.record.files import RecordFolder
+    from shoal.scenario.load import scenario_from
+    from shoal.simulation import needs_compiling
+    from shoal.view.server import live_app, serving
+    from shoal.view.session import Session
+    from shoal.view.worker import Worker
+
+    scenarios = [scenario_from(table, where=name) for table, name in zip(tables, names, strict=False)]
+    if any(needs_compiling(each) for each in scenarios):
+        note("compiling the engine (up to half a minute; once per strategy and version of Shoal)")
+    if out:
+        with RecordFolder(out):  # refused now, not after the run
+            pass
+    session = Session(tables, names=names, speed=speed, limit=scenarios[0].steps if out else None)
+    for run in session.runs:
+        for each in run.simulation.notes:
+            note(each)
+    saved: list[Path] = []
+
+    def save() -> None:
+        if out and session.number and not saved:
+            _record(session, out)
+            saved.append(out)
+
+    with (
+        suppress(KeyboardInterrupt),
+        Worker(session, on_done=save) as worker,
+        serving(live_app(worker), host, port) as address,
+    ):
+        _announce(address, host, browser)
+        worker.wait()
+    save()
+
+
+def _record(session: "Session", out: Path) -> None:
+    """Save what was watched: the same steps of the same scenario and seed again, which are the same bits."""
+    from shoal.runs import simulate
+    from shoal.scenario.schema import Scenario
+
+    whole = session.runs[0].simulation.scenario
+    watched = Scenario.model_validate({**dict(whole), "steps": session.number})
+    with progress_bar(f"recording {watched.steps:,} steps") as progress:
+        simulate(watched, out=out, progress=progress)
+    note(f"record: {out}, {watched.steps:,} of {whole.steps:,} steps (shoal show {out})")
+
+
+def _play_record(folder: str, host: str, port: int, browser: bool) -> None:
+    from threading import Event
+
+    from shoal.record.files import open_record
+    from shoal.view.replay import replay_page
+    from shoal.view.server import page_app, serving
+
+    page = replay_page(open_record(folder))
+    with suppress(KeyboardInterrupt), serving(page_app(page), host, port) as address:
+        _announce(address, host, browser)
+        Event().wait()
+
+
+def _other(table: dict[str, Any], against: str) -> dict[str, Any]:
+    """The second run: the first with a change, or another scenario with the first one's seed."""
+    from shoal.scenario.edit import apply, parse_assignment
+    from shoal.scenario.load import read_table
+
+    if "=" in against and not Path(against).exists():
+        return apply(table, dict([parse_assignment(against)]))
+    return {**read_table(against), "seed": table.get("seed", 1)}
+
+
+def _announce(address: str, host: str, browser: bool) -> None:
+    from shoal.view.address import is_local
+
+    note(f"watch at {address} (Ctrl-C ends)")
+    if not is_local(host):
+        note(f"everybody who reaches {host} can watch and control this run")
+    if browser:
+        webbrowser.open(address)

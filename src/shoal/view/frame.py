@@ -1,0 +1,82 @@
+"""A frame as bytes: docs/reference/view-protocol.md, in the words of numpy."""
+
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.metrics.tally import BINS
+
+FORMAT = 1
+RECENT = 1000  # steps of the shorter mean
+ON_TARGET, ALIVE = 1, 2  # bits of an agent
+PRESENT = 1  # bit of a target
+
+
+class Gauges(NamedTuple):
+    """The numbers of a frame; NaN where one does not exist.
+
+    time_on_target, xi : means since the scene's `since`; recent : time on target over the last 1,000 steps
+    xi_now, engaged, phi : of this frame; phi (11,) agents per bin
+    """
+
+    time_on_target: float
+    recent: float
+    xi: float
+    xi_now: float
+    engaged: float
+    phi: npt.ArrayLike
+
+
+def pack(
+    *,
+    run: int,
+    epoch: int,
+    step: int,
+    gauges: Gauges,
+    agents: dict[str, npt.NDArray[Any]],
+    targets: dict[str, npt.NDArray[Any]],
+) -> bytes:
+    """Return the bytes of a frame.
+
+    Parameters
+    ----------
+    agents : x, y [m], vx, vy [m/s], repulsion [m], degree, on_target, alive; (N,) each
+    targets : x, y [m], present; (T,) each
+    """
+    size = agents["x"].size, targets["x"].size
+    frame = np.zeros((), _layout(*size))
+    frame["format"], frame["run"], frame["epoch"] = FORMAT, run, epoch % 65536
+    frame["step"], frame["agents"], frame["targets"] = step, *size
+    frame["gauges"] = [*gauges[:-1], *np.asarray(gauges.phi, float)]
+    for name in ("x", "y", "vx", "vy", "repulsion", "degree"):
+        frame[name] = agents[name]
+    frame["agent_bits"] = agents["on_target"] * ON_TARGET + agents["alive"] * ALIVE
+    frame["target_x"], frame["target_y"] = targets["x"], targets["y"]
+    frame["target_bits"] = targets["present"] * PRESENT
+    return frame.tobytes()
+
+
+@cache
+def _layout(agents: int, targets: int) -> np.dtype[np.void]:
+    """Little endian, without gaps."""
+    per_agent = [(name, "<f4", (agents,)) for name in ("x", "y", "vx", "vy", "repulsion")]
+    per_target = [(name, "<f4", (targets,)) for name in ("target_x", "target_y")]
+    return np.dtype(
+        [
+            ("format", "u1"),
+            ("run", "u1"),
+            ("epoch", "<u2"),
+            ("step", "<u4"),
+            ("agents", "<u4"),
+            ("targets", "<u4"),
+            ("reserved", "<u4"),
+            ("gauges", "<f4", (5 + BINS,)),
+            *per_agent,
+            *per_target,
+            ("degree", "<u2", (agents,)),
+            ("agent_bits", "u1", (agents,)),
+            ("target_bits", "u1", (targets,)),
+        ]
+    )

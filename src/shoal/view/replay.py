@@ -1,0 +1,71 @@
+"""Replay: a record as one page that needs no engine and no network."""
+
+from pathlib import Path
+from typing import Literal
+from uuid import uuid4
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.core.errors import RecordError, ScenarioError
+from shoal.record.record import Record
+from shoal.view.page import inline_page
+from shoal.view.recorded import recorded_frames, recorded_scene
+
+Part = Literal["all", "end"]
+
+FRAMES = 2000  # in a page, if not told otherwise
+
+
+def replay_page(record: Record, *, frames: int = FRAMES, part: Part = "all") -> str:
+    """Return one HTML text that plays a record's first recorded run.
+
+    Parameters
+    ----------
+    frames : at most so many
+    part : spread evenly in time over the whole run; or the last ones, as far as every step was kept
+
+    Raises
+    ------
+    RecordError : the record keeps no frames
+    ScenarioError : fewer than one frame is asked for
+    ShoalError : the page is not built
+    """
+    if frames < 1:
+        raise ScenarioError("frames", f"is {frames}", "ask for 1 or more")
+    if not record.trajectories:
+        raise RecordError("record", "keeps no frames", "run the scenario again with --out")
+    run, kept = next(iter(record.trajectories.items()))
+    chosen = choose_frames(np.asarray(kept.step), frames, part)
+    return inline_page(recorded_scene(record, run), b"".join(recorded_frames(record, run, chosen)))
+
+
+def save_page(page: str, path: str | Path) -> None:
+    """Write a page to a file, whole or not at all; a file of this name is replaced.
+
+    Raises
+    ------
+    RecordError : the file cannot be written
+    """
+    file = Path(path)
+    partial = file.with_name(f".{file.name}.{uuid4().hex}.partial")
+    try:
+        partial.write_text(page, encoding="utf-8")
+        partial.replace(file)
+    except OSError as error:
+        problem = f"cannot be written: {error.strerror or error}"
+        raise RecordError(str(file), problem, "name a file in a folder that exists and you may write") from error
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def choose_frames(steps: npt.NDArray[np.int64], frames: int, part: Part) -> npt.NDArray[np.int64]:
+    """Indices of the kept frames to show, given their steps in order (K,): see `replay_page`."""
+    if part == "end":
+        gaps = np.flatnonzero(np.diff(steps) > 1)
+        first = int(gaps[-1]) + 1 if gaps.size else 0
+        return np.arange(max(first, steps.size - frames), steps.size)
+    if steps.size <= frames:
+        return np.arange(steps.size)
+    wanted = np.linspace(steps[0], steps[-1], frames)
+    return np.unique(np.searchsorted(steps, wanted, side="right") - 1)

@@ -1,0 +1,64 @@
+"""The frames that a session keeps to go back to: the newest ones, within so many bytes."""
+
+from bisect import bisect_right
+from collections import deque
+from typing import NamedTuple
+
+
+class Kept(NamedTuple):
+    """What was shown at a step: for each run the message that says its scene, and its frame."""
+
+    step: int
+    scenes: tuple[str, ...]
+    frames: tuple[bytes, ...]
+
+
+class Ring:
+    """Kept frames in the order of their steps; the oldest are dropped beyond `room` [bytes]."""
+
+    def __init__(self, room: int) -> None:
+        self._room = room
+        self._bytes = 0
+        self._kept: deque[Kept] = deque()
+
+    def __len__(self) -> int:
+        return len(self._kept)
+
+    @property
+    def oldest(self) -> Kept:
+        """The first that is left."""
+        return self._kept[0]
+
+    @property
+    def newest(self) -> Kept:
+        """The last one added."""
+        return self._kept[-1]
+
+    def add(self, kept: Kept) -> None:
+        """Keep a frame, instead of the newest if that is of the same step."""
+        if self._kept and self.newest.step == kept.step:
+            self._bytes -= _size(self._kept.pop())
+        self._kept.append(kept)
+        self._bytes += _size(kept)
+        while self._bytes > self._room and len(self._kept) > 1:
+            self._bytes -= _size(self._kept.popleft())
+
+    def at(self, step: int) -> Kept:
+        """The frame at or before a step; the oldest if all are later."""
+        return self._kept[max(0, self._place(step))]
+
+    def beside(self, step: int, frames: int) -> Kept:
+        """The frame that lies so many frames after (before, if negative) the one at a step."""
+        return self._kept[min(max(0, self._place(step) + frames), len(self._kept) - 1)]
+
+    def clear(self) -> None:
+        """Forget all."""
+        self._kept.clear()
+        self._bytes = 0
+
+    def _place(self, step: int) -> int:
+        return bisect_right(self._kept, step, key=lambda kept: kept.step) - 1
+
+
+def _size(kept: Kept) -> int:
+    return sum(map(len, kept.frames))
