@@ -59,7 +59,7 @@ export class App implements Listener {
     this.numbers = new Numbers(letters);
     this.swarm = this.source.live ? new SwarmControls(hello, letters, (request) => this.send(request), () => this.showTool()) : null;
     byId("stages").replaceChildren(...this.stages.map((stage) => stage.root));
-    byId("side").replaceChildren(this.numbers.root, el("div", { class: "controls" }, ...(this.swarm ? [this.swarm.root] : []), this.switches.root));
+    byId("side").replaceChildren(this.numbers.root, el("div", { class: "controls" }, this.swarm ? this.swarm.root : this.numbers.table, this.switches.root));
     this.transport.offer(hello.speeds);
     this.transport.restart.disabled = hello.recording;
     const mode = byId("mode");

@@ -24,6 +24,7 @@ export interface Brush {
 }
 
 const KILOMETERS_FROM = 2000; // [m] longer side from which axes count in km
+const MANY = 500; // agents from which discs are not filled and trails have fewer corners, for the sake of speed
 const TURN = 2 * Math.PI;
 
 export function drawWater({ context, camera, theme }: Brush, scene: Scene): void {
@@ -97,7 +98,6 @@ export function drawTargets(brush: Brush, { scene, frame, targetX, targetY, past
     const x = camera.toX(targetX[target]);
     const y = camera.toY(targetY[target]);
     context.lineWidth = 2.2;
-    context.lineCap = "round";
     const track = past.filter((each) => isPresent(each, target)).map((each) => [each.targetX[target], each.targetY[target]]);
     drawFading(brush, [...track, [targetX[target], targetY[target]]], 0.85);
     const radius = scene.targets[target]?.radius * camera.scale;
@@ -140,14 +140,14 @@ export function drawHalos(brush: Brush, moment: Moment): void {
   drawDiscs(brush, moment, (agent) => moment.frame.repulsion[agent], []);
 }
 
-export function drawTrails(brush: Brush, { scene, frame, x, y, past }: Moment): void {
-  const { context, camera } = brush;
-  context.lineWidth = 1.3;
+export function drawTrails({ context, camera }: Brush, { scene, frame, x, y, past }: Moment, size: number): void {
+  context.lineWidth = lineWidth(size);
+  const stride = frame.x.length > MANY ? Math.max(Math.ceil(past.length / 3), 1) : 1;
   forEachFleet(scene, frame.x.length, (fleet, begin, end) => {
     context.strokeStyle = fleetColor(fleet);
-    for (let age = 1; age <= past.length; age++) {
+    for (let age = stride; age <= past.length; age += stride) {
       const old = past[past.length - age];
-      const next = age === 1 ? { x, y } : past[past.length - age + 1];
+      const next = age === stride ? { x, y } : past[past.length - age + stride];
       context.globalAlpha = 0.6 * (1 - (age - 1) / past.length) + 0.04;
       context.beginPath();
       for (let agent = begin; agent < end; agent++) {
@@ -162,7 +162,7 @@ export function drawTrails(brush: Brush, { scene, frame, x, y, past }: Moment): 
 }
 
 export function drawHeadings({ context, camera }: Brush, { scene, frame, x, y }: Moment, size: number): void {
-  context.lineWidth = Math.max(1.2, size / 3.5);
+  context.lineWidth = lineWidth(size);
   forEachFleet(scene, x.length, (fleet, begin, end) => {
     const reach = (2.6 * size) / scene.fleets[fleet].max_speed;
     context.strokeStyle = fleetColor(fleet);
@@ -296,7 +296,7 @@ function drawDiscs(
     }
     context.fillStyle = context.strokeStyle = fleetColor(fleet);
     context.globalAlpha = theme.dark ? 0.16 : 0.1;
-    context.fill();
+    if (x.length <= MANY) context.fill();
     context.globalAlpha = theme.dark ? 0.6 : 0.4;
     context.lineWidth = 0.9;
     context.setLineDash(dash);
@@ -314,6 +314,11 @@ function drawFading({ context, camera }: Brush, points: number[][], strongest: n
     context.lineTo(camera.toX(points[n][0]), camera.toY(points[n][1]));
     context.stroke();
   }
+}
+
+/** Lines up to 1 px wide are drawn several times faster than wider ones: very many agents get those. */
+function lineWidth(size: number): number {
+  return size < 3 ? 1 : Math.max(1.3, size / 3.5);
 }
 
 function disc(context: CanvasRenderingContext2D, x: number, y: number, radius: number): void {

@@ -51,8 +51,9 @@ interface Card {
 export class Numbers {
   readonly root = el("section", { class: "numbers", "aria-label": "Numbers" });
   private readonly cards: Card[];
-  private readonly phi = el("canvas", { role: "img", "aria-label": "Histogram of the heading-bearing correlation phi" });
-  private readonly table = el("div", { class: "card record", hidden: true });
+  private readonly phi = el("canvas", { class: "phi", role: "img", "aria-label": "Histogram of the heading-bearing correlation phi" });
+  /** The record's own metrics, where there are any. */
+  readonly table = el("section", { class: "card record", "aria-label": "Metrics of the record", hidden: true });
 
   constructor(private readonly letters: string[]) {
     this.cards = MEASURES.map((measure) => {
@@ -67,13 +68,11 @@ export class Numbers {
       el(
         "section", { class: "card" },
         el("div", { class: "top" }, el("h3", {}, "Heading to the target φ")),
-        el("p", { class: "words" }, "agents of this step, by cos of heading against bearing"), this.phi,
+        el("p", { class: "words" }, "agents of this step, by the cosine to its bearing"), this.phi,
       ),
-      this.table,
     );
   }
 
-  /** The record's own metrics, where there are any. */
   describe(scene: Scene): void {
     this.table.hidden = !scene.metrics?.length;
     if (!scene.metrics?.length) return;
@@ -84,6 +83,7 @@ export class Numbers {
         el("thead", {}, el("tr", {}, ...["metric", "unit", "mean", "95 % interval"].map((name) => el("th", { scope: "col" }, name)))),
         el("tbody", {}, ...scene.metrics.map(metricRow)),
       ),
+      el("p", { class: "words" }, scene.strategy.summary),
     );
   }
 

@@ -88,5 +88,5 @@ export function fleetGlyph(fleet: number): SVGElement {
 
 /** A picture for legends, drawn about (0, 0) within 8 units. */
 export function glyph(kind: string, color: string, ...shapes: SVGElement[]): SVGElement {
-  return svg("svg", { class: `glyph ${kind}`, viewBox: "-8 -8 16 16", "aria-hidden": "true", style: `color:${color}` }, ...shapes);
+  return svg("svg", { class: `glyph ${kind}`, viewBox: "-8 -8 16 16", "aria-hidden": "true", color }, ...shapes);
 }

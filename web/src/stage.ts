@@ -133,7 +133,7 @@ export class Stage {
       this.links = pairs.length / 2;
       layers.drawLinks(brush, moment, pairs);
     }
-    if (look.trails) layers.drawTrails(brush, { ...moment, past: this.trail(moment.past) });
+    if (look.trails) layers.drawTrails(brush, { ...moment, past: this.trail(moment.past) }, size);
     layers.drawTargets(brush, look.trails ? moment : { ...moment, past: [] });
     if (this.picked !== null) layers.drawPicked(brush, moment, this.picked, this.heardBy(this.picked), size);
     if (look.headings) layers.drawHeadings(brush, moment, size);
