@@ -15,6 +15,7 @@ import { Switches } from "./switches";
 import { Transport } from "./transport";
 
 const NUMBERS_EVERY = 100; // [ms]: faster than this nobody reads
+const PATIENCE = 700; // [ms] without an answer after which the engine is said to be busy
 const RECORDING = "A record is being written, and a record is one scenario: time can be stopped and scrubbed, the swarm cannot be changed.";
 const PAST = "This is the past. Go to the newest step (End) to change the swarm.";
 
@@ -31,6 +32,7 @@ export class App implements Listener {
   private theme: Theme = readTheme();
   private counted = 0; // [ms], when the numbers were last drawn
   private uncounted = true;
+  private waiting = 0; // timer: the engine has not yet answered a change
 
   start(source: Source): void {
     this.source = source;
@@ -113,13 +115,13 @@ export class App implements Listener {
     const locks = this.status_?.at_end !== status.at_end || this.status_?.playing !== status.playing;
     this.status_ = status;
     this.transport.update(status, this.stages[0]?.newest?.time_step ?? 0);
-    byId("busy").hidden = status.busy === null;
-    byId("busy").textContent = status.busy;
+    this.showBusy(status.busy);
     if (locks) this.lock();
     this.uncounted = true;
   }
 
   failure({ message }: Failure): void {
+    this.showBusy(null);
     this.toast(message);
     for (const [run, { scene }] of this.runs.entries()) if (scene) this.swarm?.describe(run, scene); // back to what is in force
   }
@@ -131,7 +133,7 @@ export class App implements Listener {
     byId("banner-words").textContent = `${reason} Is shoal watch still running?`;
     byId("mode").textContent = "not connected";
     byId("mode").dataset.mode = "lost";
-    byId("busy").hidden = true;
+    this.showBusy(null);
     this.lock();
   }
 
@@ -158,6 +160,15 @@ export class App implements Listener {
 
   private send(request: Request): void {
     this.source.send(request);
+    if (!["change", "restart", "kill", "add"].includes(request.do) || !this.source.live) return;
+    clearTimeout(this.waiting);
+    this.waiting = window.setTimeout(() => this.showBusy("the engine is busy …"), PATIENCE);
+  }
+
+  private showBusy(words: string | null): void {
+    clearTimeout(this.waiting);
+    byId("busy").hidden = words === null;
+    byId("busy").textContent = words;
   }
 
   private retry(): void {

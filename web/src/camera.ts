@@ -37,7 +37,7 @@ export class Camera {
     const height = seen.height * fitted;
     this.plot = {
       left: Math.round(margins.left + (room.width - width) / 2),
-      top: Math.round(margins.top + (room.height - height) / 2),
+      top: margins.top,
       width: Math.round(width),
       height: Math.round(height),
     };

@@ -68,7 +68,7 @@ export function drawLines(
   }
   context.restore();
   context.setLineDash([]);
-  if (shown < last) drawUpright(plot, toX(shown), theme.ink, []);
+  if (shown >= first && shown < last) drawUpright(plot, toX(shown), theme.ink, []);
 }
 
 /** Bars of phi: how many agents head away from the target (-1), across or nowhere (0), toward it (+1). */
@@ -100,7 +100,7 @@ export function drawPhi(canvas: HTMLCanvasElement, theme: Theme, runs: { phi: Fl
   });
   context.fillStyle = theme.muted;
   context.textBaseline = "top";
-  for (const [phi, align, words] of [[-1, "left", "away"], [0, "center", "still or across"], [1, "right", "toward"]] as const) {
+  for (const [phi, align, words] of [[-1, "left", "away"], [0, "center", right - left > 190 ? "still or across" : "still"], [1, "right", "toward"]] as const) {
     context.textAlign = align;
     context.fillText(phi === 1 ? "+1" : fixed(phi, 0), toX(phi), bottom + 4);
     context.fillText(words, toX(phi), bottom + 16);

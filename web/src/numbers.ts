@@ -21,7 +21,7 @@ interface Measure {
 const MEASURES: Measure[] = [
   {
     title: "Time on target", unit: "share of steps", value: "timeOnTarget", recent: "timeOnTargetRecent",
-    recentWords: "last 1\u2009000 steps", record: "time_on_target", decimals: 3, top: 1,
+    recentWords: "last 1\u2009000", record: "time_on_target", decimals: 3, top: 1,
   },
   {
     title: "Velocity fluctuation Ξ", unit: "of mean top speed", value: "xi", recent: "xiNow", recentWords: "now", record: "xi",
@@ -67,8 +67,8 @@ export class Numbers {
     this.root.append(
       el(
         "section", { class: "card" },
-        el("div", { class: "top" }, el("h3", {}, "Heading to the target φ")),
-        el("p", { class: "words" }, "agents of this step, by the cosine to its bearing"), this.phi,
+        el("div", { class: "top" }, el("h3", {}, "Heading to target φ")),
+        el("p", { class: "words" }, "agents by cos(heading, bearing) now"), this.phi,
       ),
     );
   }
@@ -109,10 +109,10 @@ export class Numbers {
 
   private caption(measure: Measure, runs: RunNumbers[]): string {
     const since = runs[0].scene?.since ?? 0;
-    const from = measure.recent && since > 0 ? ` since step ${count(since)}` : "";
-    const now = runs.map((run) => fixed(run.frame && measure.recent ? run.frame[measure.recent] : NaN, measure.decimals));
-    const recent = measure.recent ? ` · ${measure.recentWords} ${now.join(" / ")}` : "";
-    return `${measure.unit}${from}${recent}`;
+    const unit = measure.recent && since > 0 ? `since step ${count(since)}` : measure.unit;
+    const [{ frame }] = runs;
+    if (!measure.recent || runs.length > 1) return unit;
+    return `${unit} · ${measure.recentWords}: ${fixed(frame ? frame[measure.recent] : NaN, measure.decimals)}`;
   }
 }
 

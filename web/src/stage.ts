@@ -46,6 +46,7 @@ export class Stage {
   private readonly moment = el("p", { class: "moment" });
   private readonly hint = el("p", { class: "hint", hidden: true });
   private readonly legend = new Legend();
+  private readonly water: HTMLElement;
   private readonly scenes = new Map<number, Scene>();
   private readonly reduced = matchMedia("(prefers-reduced-motion: reduce)");
   private pairs: { frame: Frame; pairs: Pairs } | null = null;
@@ -64,7 +65,7 @@ export class Stage {
   ) {
     this.canvas = el("canvas", { tabindex: 0, role: "application", "aria-label": "Map of the swarm" });
     this.context = this.canvas.getContext("2d")!;
-    const water = el("div", { class: "water" }, this.canvas, this.hint);
+    const water = (this.water = el("div", { class: "water" }, this.canvas, this.hint));
     this.root = el(
       "section", { class: "stage", "aria-label": letter ? `Run ${letter}` : "Run" },
       el("div", { class: "caption" }, letter ? el("span", { class: `letter run-${run}` }, letter) : null, this.moment),
@@ -191,6 +192,7 @@ export class Stage {
   private adopt(scene: Scene): void {
     this.scene = scene;
     this.legend.describe(scene);
+    this.water.style.setProperty("--aspect", `${scene.area.width} / ${scene.area.height}`);
     this.fit();
   }
 
@@ -211,8 +213,7 @@ export class Stage {
 
   private describe(frame: Frame, scene: Scene): void {
     const there = frame.present.some((_, target) => isPresent(frame, target));
-    const on = frame.flags.reduce((sum, _, agent) => sum + Number(isAlive(frame, agent) && isOnTarget(frame, agent)), 0);
-    const state = there ? `${count(on)} on target` : "no target is there";
+    const state = there ? `${fixed(frame.engaged, 0)} on target` : "no target is there";
     this.moment.textContent = `Step ${count(frame.step)} · ${time(frame.step * scene.time_step)} · ${state}`;
     const gone = frame.x.length - this.livingAgents();
     this.legend.showGone(gone);

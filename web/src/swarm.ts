@@ -11,8 +11,8 @@ export type Tool = (typeof TOOLS)[number];
 const TOOL_WORDS: Record<Tool, [string, string]> = {
   look: ["Look", "Hover or tap a buoy to see whom it hears; drag to pan when zoomed in."],
   move: ["Move target", "Drag a target to where it should be."],
-  remove: ["Remove buoy", "Click or tap a buoy: it is gone from this step on."],
-  add: ["Add buoy", "Click or tap empty water: a buoy joins there."],
+  remove: ["Remove", "Click or tap a buoy: it is gone from this step on."],
+  add: ["Add", "Click or tap empty water: a buoy joins there."],
 };
 
 /** The swarm's controls. `ask` sends a request for the chosen runs. */
@@ -127,7 +127,7 @@ export class SwarmControls {
     if (scene.fleets.length !== 2) return this.fast.refuse("needs two fleets");
     const [a, b] = scene.fleets;
     const fast = a.max_speed >= b.max_speed ? a : b;
-    this.fast.show(fast.count, { min: 0, max: agents, step: 1 }, (value) =>
+    this.fast.show(fast.count, { min: 1, max: agents - 1, step: 1 }, (value) =>
       `${count(value)} of ${count(agents)} (${Math.round((100 * value) / agents)} %)`,
     );
     this.fast.input.title = `${fast.name}, ${short(fast.max_speed)} m/s`;
