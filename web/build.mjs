@@ -1,0 +1,35 @@
+// Bundle the page into the Python package, or (--tests) the tests into build/. Same sources, same bytes.
+import { copyFileSync, mkdirSync, readdirSync } from "node:fs";
+import { build } from "esbuild";
+
+const STATIC = "../src/shoal/view/static";
+const BANNER = "/*! Shoal's viewer. Built from web/src by `npm run build` in web/; edit there, not here. */";
+
+if (process.argv.includes("--tests")) {
+  const tests = readdirSync("test").filter((name) => name.endsWith(".test.ts"));
+  await build({
+    entryPoints: tests.map((name) => `test/${name}`),
+    bundle: true,
+    platform: "node",
+    format: "esm",
+    outdir: "build",
+    outExtension: { ".js": ".mjs" },
+  });
+} else {
+  mkdirSync(STATIC, { recursive: true });
+  await build({
+    entryPoints: [
+      { in: "src/main.ts", out: "app" },
+      { in: "src/app.css", out: "app" },
+    ],
+    bundle: true,
+    minify: true,
+    charset: "utf8",
+    format: "iife",
+    target: ["es2022"],
+    banner: { js: BANNER, css: BANNER },
+    legalComments: "none",
+    outdir: STATIC,
+  });
+  copyFileSync("src/index.html", `${STATIC}/index.html`);
+}

@@ -1,0 +1,297 @@
+// The page: what comes from the source goes to stages and panels, what people do goes back.
+
+import { byId, el } from "./dom";
+import { count, short } from "./format";
+import { History } from "./history";
+import { listen, type Key } from "./keyboard";
+import { Numbers, type RunNumbers } from "./numbers";
+import { readTheme, type Theme } from "./palette";
+import { attachPointer } from "./pointer";
+import type { Failure, Frame, Hello, Request, Scene, Status } from "./protocol";
+import type { Listener, Source } from "./source";
+import { Stage } from "./stage";
+import { SwarmControls, TOOLS } from "./swarm";
+import { Switches } from "./switches";
+import { Transport } from "./transport";
+
+const NUMBERS_EVERY = 100; // [ms]: faster than this nobody reads
+const PATIENCE = 700; // [ms] without an answer after which the engine is said to be busy
+const RECORDING = "A record is being written, and a record is one scenario: time can be stopped and scrubbed, the swarm cannot be changed.";
+const PAST = "This is the past. Go to the newest step (End) to change the swarm.";
+
+export class App implements Listener {
+  private source!: Source;
+  private hello_: Hello | null = null;
+  private status_: Status | null = null;
+  private stages: Stage[] = [];
+  private runs: RunNumbers[] = [];
+  private numbers!: Numbers;
+  private swarm: SwarmControls | null = null;
+  private readonly switches = new Switches(() => this.refresh());
+  private readonly transport = new Transport((request) => this.send(request));
+  private theme: Theme = readTheme();
+  private counted = 0; // [ms], when the numbers were last drawn
+  private uncounted = true;
+  private waiting = 0; // timer: the engine has not yet answered a change
+
+  start(source: Source): void {
+    this.source = source;
+    byId("transport").replaceWith(this.transport.root);
+    byId("retry").onclick = () => this.retry();
+    byId("theme").onclick = () => this.switchTheme();
+    byId("help-open").onclick = () => this.help();
+    byId("help-close").onclick = () => byId<HTMLDialogElement>("help").close();
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.refresh());
+    new ResizeObserver(() => (this.uncounted = true)).observe(byId("side"));
+    listen(this.keys());
+    requestAnimationFrame(this.tick);
+    source.connect();
+  }
+
+  // From the source.
+
+  hello(hello: Hello): void {
+    this.hello_ = hello;
+    this.status_ = null;
+    byId("banner").hidden = true;
+    document.body.dataset.runs = String(hello.runs);
+    const letters = hello.runs > 1 ? ["A", "B"].slice(0, hello.runs) : [""];
+    this.stages = letters.map((letter, run) => new Stage(run, letter, (each) => this.source.tape(each)));
+    this.runs = letters.map(() => ({ history: new History(), scene: null, frame: null, marks: [] }));
+    this.numbers = new Numbers(letters);
+    this.swarm = this.source.live ? new SwarmControls(hello, letters, (request) => this.send(request), () => this.showTool()) : null;
+    byId("stages").replaceChildren(...this.stages.map((stage) => stage.root));
+    byId("side").replaceChildren(this.numbers.root, el("div", { class: "controls" }, this.swarm ? this.swarm.root : this.numbers.table, this.switches.root));
+    this.transport.offer(hello.speeds);
+    this.transport.restart.disabled = hello.recording;
+    const mode = byId("mode");
+    mode.textContent = this.source.live ? (hello.recording ? "recording" : "live") : "replay";
+    mode.dataset.mode = mode.textContent;
+    for (const stage of this.stages) {
+      attachPointer(stage, {
+        tool: () => this.swarm?.tool ?? "look",
+        remove: (run, agent) => this.send({ do: "kill", run, agent }),
+        add: (run, at) => this.send({ do: "add", run, fleet: this.swarm!.fleet, ...at }),
+        drag: (run, target, at) => this.send({ do: "drag", run, target, ...at }),
+        say: (words) => this.toast(words),
+      });
+    }
+    this.lock();
+    this.showTool();
+  }
+
+  scene(run: number, scene: Scene): void {
+    const numbers = this.runs[run];
+    const before = this.stages[run]?.newest?.epoch;
+    if (!this.stages[run]?.learn(scene)) return;
+    numbers.scene = scene;
+    if (scene.epoch !== before) {
+      numbers.history.cut(scene.since);
+      numbers.marks = [...numbers.marks.filter((step) => step < scene.since), scene.since];
+    }
+    if (!this.source.live) {
+      const tape = this.source.tape(run);
+      for (let n = 0; n < tape.length; n++) numbers.history.add(tape.at(n));
+    }
+    this.swarm?.describe(run, scene);
+    this.switches.describe(this.stages.flatMap((stage) => stage.newest ?? []));
+    this.numbers.describe(scene);
+    this.describe();
+    this.refresh();
+  }
+
+  frame(frame: Frame): void {
+    const run = this.runs[frame.run];
+    if (!run) return;
+    run.frame = frame;
+    run.history.add(frame);
+    this.stages[frame.run].show(frame, this.status_?.playing ?? false);
+    this.uncounted = true;
+  }
+
+  status(status: Status): void {
+    const { last } = this.status_ ?? status;
+    if (status.last < last) for (const { history } of this.runs) history.cut(status.last);
+    const locks = this.status_?.at_end !== status.at_end || this.status_?.playing !== status.playing;
+    this.status_ = status;
+    this.transport.update(status, this.stages[0]?.newest?.time_step ?? 0);
+    this.showBusy(status.busy);
+    if (locks) this.lock();
+    this.uncounted = true;
+  }
+
+  failure({ message }: Failure): void {
+    this.showBusy(null);
+    this.toast(message);
+    for (const [run, { scene }] of this.runs.entries()) if (scene) this.swarm?.describe(run, scene); // back to what is in force
+  }
+
+  lost(reason: string): void {
+    this.status_ = this.status_ && { ...this.status_, playing: false };
+    if (this.status_) this.transport.update(this.status_, this.stages[0]?.newest?.time_step ?? 0);
+    byId("banner").hidden = false;
+    byId("banner-words").textContent = `${reason} Is shoal watch still running?`;
+    byId("mode").textContent = "not connected";
+    byId("mode").dataset.mode = "lost";
+    this.showBusy(null);
+    this.lock();
+  }
+
+  /** For browser tests, and for anybody with a console. */
+  readonly api = {
+    step: (): number => this.stages[0]?.frame?.step ?? -1,
+    links: (): number => this.stages[0]?.links ?? 0,
+    agents: (): number => this.stages[0]?.livingAgents() ?? 0,
+    frame: (): ArrayBuffer => this.stages[0]?.frame?.bytes.slice(0) ?? new ArrayBuffer(0),
+    playing: (): boolean => this.status_?.playing ?? false,
+    fps: (): number => this.stages[0]?.fps(performance.now()) ?? 0,
+  };
+
+  private readonly tick = (now: number): void => {
+    for (const stage of this.stages) stage.draw(now, this.switches.look, this.theme);
+    if (this.uncounted && this.numbers && now - this.counted >= NUMBERS_EVERY) {
+      this.counted = now;
+      this.uncounted = false;
+      const newest = Math.max(...this.runs.map(({ frame }) => frame?.step ?? 0));
+      this.numbers.draw(this.theme, this.runs, this.status_?.last ?? newest);
+    }
+    requestAnimationFrame(this.tick);
+  };
+
+  private send(request: Request): void {
+    this.source.send(request);
+    if (!["change", "restart", "kill", "add"].includes(request.do) || !this.source.live) return;
+    clearTimeout(this.waiting);
+    this.waiting = window.setTimeout(() => this.showBusy("the engine is busy …"), PATIENCE);
+  }
+
+  private showBusy(words: string | null): void {
+    clearTimeout(this.waiting);
+    byId("busy").hidden = words === null;
+    byId("busy").textContent = words;
+  }
+
+  private retry(): void {
+    byId("banner").hidden = true;
+    byId("mode").textContent = "connecting";
+    this.source.connect();
+  }
+
+  private lock(): void {
+    if (!this.hello_ || !this.swarm) return;
+    const { at_end, playing } = this.status_ ?? { at_end: true, playing: true };
+    const reason = this.hello_.recording ? RECORDING : at_end || playing ? null : PAST;
+    this.swarm.lock(reason, !this.hello_.recording);
+  }
+
+  private showTool(): void {
+    document.body.dataset.tool = this.swarm?.tool ?? "look";
+    for (const stage of this.stages) stage.pick(null);
+  }
+
+  private describe(): void {
+    const scenes = this.stages.flatMap((stage) => stage.newest ?? []);
+    const [scene] = scenes;
+    document.title = `${scene.name} – Shoal`;
+    byId("name").textContent = scene.name;
+    const each = scenes.map(phrases);
+    const common = each[0].filter((phrase) => each.every((phrases) => phrases.includes(phrase)));
+    const own = each.map((phrases, run) => `${"AB"[run]}: ${phrases.filter((phrase) => !common.includes(phrase)).join(", ")}`);
+    const differ = each.length > 1 && each.some((phrases) => phrases.length > common.length);
+    byId("about").textContent = [...common, ...(differ ? own : [])].join(" · ");
+  }
+
+  private refresh(): void {
+    this.theme = readTheme();
+    this.uncounted = true;
+    for (const stage of this.stages) stage.refresh();
+  }
+
+  private switchTheme(): void {
+    document.documentElement.dataset.theme = this.theme.dark ? "light" : "dark";
+    this.refresh();
+  }
+
+  private help(): void {
+    const dialog = byId<HTMLDialogElement>("help");
+    if (dialog.open) dialog.close();
+    else dialog.showModal();
+  }
+
+  private toast(words: string): void {
+    const note = el("p", {}, words);
+    byId("toasts").append(note);
+    if (byId("toasts").childElementCount > 3) byId("toasts").firstElementChild!.remove();
+    setTimeout(() => note.remove(), 4000 + 40 * words.length);
+  }
+
+  private zoom(factor: number): void {
+    for (const stage of this.stages) stage.camera.zoomBy(factor);
+    this.refresh();
+  }
+
+  private keys(): { title: string; keys: Key[] }[] {
+    const key = (keys: string, words: string, act: () => void, shown?: string): Key => ({
+      keys: keys.split(" ").map((name) => (name === "Space" ? " " : name)), words, act, ...(shown ? { shown } : {}),
+    });
+    const { transport, switches } = this;
+    const live = [
+      ...TOOLS.map((tool, n) => key(`${n + 1}`, `tool: ${["look", "move target", "remove buoy", "add buoy"][n]}`, () => this.swarm?.choose(tool))),
+      key("k", "number of neighbors k", () => this.swarm?.focus("k")),
+      key("t", "target speed", () => this.swarm?.focus("targetSpeed")),
+      key("f", "fast buoys", () => this.swarm?.focus("fast")),
+      key("g", "strategy", () => this.swarm?.focus("strategy")),
+      key("n", "seed", () => this.swarm?.focus("seed")),
+    ];
+    return [
+      {
+        title: "Time",
+        keys: [
+          key("Space", "play, pause", () => transport.toggle(), "space"),
+          key("ArrowLeft", "a step back", () => transport.stepBy(-1), "←"),
+          key("ArrowRight", "a step forward", () => transport.stepBy(1), "→"),
+          key("Home", "oldest step that is kept", () => transport.toFirst(), "Home"),
+          key("End", "newest step", () => transport.toNewest(), "End"),
+          key("[", "slower", () => transport.changeSpeed(-1)),
+          key("]", "faster", () => transport.changeSpeed(1)),
+          key("r", "restart", () => transport.restart.click()),
+        ],
+      },
+      {
+        title: "View",
+        keys: [
+          key("l", "links", () => switches.toggle("links")),
+          key("h", "halos: spacing a_R", () => switches.toggle("halos")),
+          key("s", "sensor discs", () => switches.toggle("sensors")),
+          key("v", "headings", () => switches.toggle("headings")),
+          key("p", "trails", () => switches.toggle("trails")),
+          key("+ =", "nearer", () => this.zoom(1.25)),
+          key("-", "farther", () => this.zoom(0.8)),
+          key("0", "the whole area", () => this.zoom(0)),
+          key("d", "dark, light", () => this.switchTheme()),
+          key("?", "this help", () => this.help()),
+        ],
+      },
+      ...(this.source.live ? [{ title: "Swarm", keys: live }] : []),
+      {
+        title: "On the water",
+        keys: [
+          key("m", "go to the map, then:", () => this.stages[0]?.canvas.focus()),
+          { keys: [], shown: "← ↑ → ↓", words: "move the crosshair (with Shift: farther)", act: () => undefined },
+          { keys: [], shown: "Enter", words: "use the tool there", act: () => undefined },
+        ],
+      },
+    ];
+  }
+}
+
+/** What a run is, in phrases. */
+function phrases(scene: Scene): string[] {
+  const agents = scene.fleets.reduce((sum, fleet) => sum + fleet.count, 0);
+  const speeds = scene.targets.map((target) => (target.speed === null ? target.kind : `${short(target.speed)} m/s`));
+  const k = scene.neighbors === "all" ? "all" : count(scene.neighbors);
+  return [
+    `${count(agents)} buoys`, `k = ${k}`, scene.strategy.name,
+    `${speeds.length > 1 ? `${speeds.length} targets` : "target"} ${[...new Set(speeds)].join(", ")}`, `seed ${scene.seed}`,
+  ];
+}

@@ -1,0 +1,46 @@
+// What the signs on the water mean.
+
+import { el, svg } from "./dom";
+import { count, short } from "./format";
+import { fleetGlyph, glyph, TARGET_COLOR } from "./palette";
+import type { Scene } from "./protocol";
+
+export class Legend {
+  readonly root = el("ul", { class: "legend", "aria-label": "Legend" });
+  private readonly gone = el("li", { hidden: true });
+  private readonly goneText = document.createTextNode("");
+
+  describe(scene: Scene): void {
+    this.root.replaceChildren();
+    scene.fleets.forEach((fleet, number) => {
+      this.add(fleetGlyph(number), `${count(fleet.count)} ${fleet.name}, ${short(fleet.max_speed)} m/s`);
+    });
+    this.add(glyph("rimmed", "currentColor", svg("circle", { r: 5 })), "on target");
+    for (const [words, radius] of targetKinds(scene)) {
+      const disc = svg("circle", { r: 6, "fill-opacity": 0.22, fill: "currentColor", stroke: "currentColor" });
+      this.add(glyph("target", TARGET_COLOR, disc, svg("path", { d: "M-3 0H3M0-3V3", stroke: "currentColor" })), `${words}, ρ ${short(radius)} m`);
+    }
+    this.gone.replaceChildren(glyph("gone", "currentColor", svg("path", { d: "M-4-4L4 4M-4 4L4-4" })), this.goneText);
+    this.root.append(this.gone);
+  }
+
+  showGone(agents: number): void {
+    this.gone.hidden = agents === 0;
+    this.goneText.data = `${count(agents)} gone`;
+  }
+
+  private add(picture: SVGElement, words: string): void {
+    this.root.append(el("li", {}, picture, words));
+  }
+}
+
+/** Each kind of target once: what it is called and its radius [m]. */
+function targetKinds(scene: Scene): Map<string, number> {
+  const kinds = new Map<string, number>();
+  const many = scene.targets.length > 1;
+  for (const target of scene.targets) {
+    const speed = target.speed === null ? target.kind : `${short(target.speed)} m/s`;
+    kinds.set(`${many ? "targets" : "target"}, ${speed}`, target.radius);
+  }
+  return kinds;
+}

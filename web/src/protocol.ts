@@ -1,0 +1,208 @@
+// What the engine and the page say to each other: docs/reference/view-protocol.md, as types and a decoder.
+
+export interface Fleet {
+  name: string;
+  count: number;
+  max_speed: number; // [m/s]
+  sensor_radius: number; // [m]
+}
+
+export interface Target {
+  kind: string;
+  radius: number; // [m]
+  speed: number | null; // [m/s]
+}
+
+export interface Metric {
+  name: string;
+  label: string;
+  unit: string;
+  mean: number | null;
+  low: number | null;
+  high: number | null;
+}
+
+export interface Scene {
+  epoch: number;
+  name: string;
+  time_step: number; // [s]
+  steps: number;
+  seed: number | string;
+  unit: number; // [m]
+  since: number;
+  area: { width: number; height: number; half_x: number; half_y: number }; // [m]
+  fleets: Fleet[];
+  targets: Target[];
+  neighbors: number | "all";
+  range: number | null; // [m]
+  strategy: { name: string; params: Record<string, unknown>; summary: string };
+  has_repulsion: boolean;
+  metrics?: Metric[];
+  history?: { step: number[]; time_on_target: (number | null)[]; xi: (number | null)[] };
+}
+
+export interface Parameter {
+  default: unknown;
+  unit: string | null;
+  description: string;
+  type: string;
+  choices: string[] | null;
+}
+
+export interface StrategyChoice {
+  name: string;
+  summary: string;
+  parameters: Record<string, Parameter>;
+}
+
+export interface Hello {
+  type: "hello";
+  runs: number;
+  recording: boolean;
+  speeds: number[];
+  strategies: StrategyChoice[];
+}
+
+export interface Status {
+  type: "status";
+  playing: boolean;
+  speed: number; // times real time
+  step: number;
+  first: number;
+  last: number;
+  at_end: boolean;
+  busy: string | null;
+}
+
+export interface Failure {
+  type: "error";
+  message: string;
+}
+
+export type Message = Hello | Status | Failure | { type: "scene"; run: number; scene: Scene };
+
+export type Change = string | number | boolean;
+
+export type Request =
+  | { do: "play" }
+  | { do: "pause" }
+  | { do: "step"; steps: number }
+  | { do: "speed"; value: number }
+  | { do: "seek"; step: number }
+  | { do: "restart"; seed?: number }
+  | { do: "change"; run: number; changes: Record<string, Change> }
+  | { do: "kill"; run: number; agent: number }
+  | { do: "add"; run: number; fleet: number; x: number; y: number }
+  | { do: "drag"; run: number; target: number; x: number; y: number };
+
+/** The state at the start of a step, as views into the bytes that came. */
+export interface Frame {
+  bytes: ArrayBuffer;
+  run: number;
+  epoch: number;
+  step: number;
+  timeOnTarget: number; // since the scene's `since`; NaN without a target
+  timeOnTargetRecent: number; // over the last 1,000 steps
+  xi: number; // since `since`
+  xiNow: number;
+  engaged: number; // agents
+  phi: Float32Array; // (11) agents
+  x: Float32Array; // (N) [m]
+  y: Float32Array;
+  vx: Float32Array; // (N) [m/s]
+  vy: Float32Array;
+  repulsion: Float32Array; // (N) a_R [m]
+  targetX: Float32Array; // (T) [m]
+  targetY: Float32Array;
+  degree: Uint16Array; // (N) k
+  flags: Uint8Array; // (N)
+  present: Uint8Array; // (T)
+}
+
+export const PHI_BINS = 11;
+const VERSION = 1;
+const HEAD = 84; // bytes before the agents
+const ON_TARGET = 1;
+const ALIVE = 2;
+
+export const isOnTarget = (frame: Frame, agent: number): boolean => (frame.flags[agent] & ON_TARGET) !== 0;
+export const isAlive = (frame: Frame, agent: number): boolean => (frame.flags[agent] & ALIVE) !== 0;
+export const isPresent = (frame: Frame, target: number): boolean => (frame.present[target] & 1) !== 0;
+
+export class ProtocolError extends Error {}
+
+/** Decode one frame; throws ProtocolError on anything else. */
+export function decodeFrame(bytes: ArrayBuffer): Frame {
+  const { agents, targets, size } = readSize(new DataView(bytes));
+  if (bytes.byteLength !== size) {
+    throw new ProtocolError(`a frame of ${agents} agents has ${size} bytes, not ${bytes.byteLength}`);
+  }
+  const view = new DataView(bytes);
+  const sums = new Float32Array(bytes, 20, 16);
+  let offset = HEAD;
+  const floats = (count: number): Float32Array => {
+    const array = new Float32Array(bytes, offset, count);
+    offset += 4 * count;
+    return array;
+  };
+  const frame = {
+    bytes,
+    run: view.getUint8(1),
+    epoch: view.getUint16(2, true),
+    step: view.getUint32(4, true),
+    timeOnTarget: sums[0],
+    timeOnTargetRecent: sums[1],
+    xi: sums[2],
+    xiNow: sums[3],
+    engaged: sums[4],
+    phi: sums.subarray(5, 16),
+    x: floats(agents),
+    y: floats(agents),
+    vx: floats(agents),
+    vy: floats(agents),
+    repulsion: floats(agents),
+    targetX: floats(targets),
+    targetY: floats(targets),
+  };
+  return {
+    ...frame,
+    degree: new Uint16Array(bytes, offset, agents),
+    flags: new Uint8Array(bytes, offset + 2 * agents, agents),
+    present: new Uint8Array(bytes, offset + 3 * agents, targets),
+  };
+}
+
+/** Cut frames that lie one behind the other; throws ProtocolError where one is cut short. */
+export function splitFrames(bytes: Uint8Array<ArrayBuffer>): ArrayBuffer[] {
+  const frames: ArrayBuffer[] = [];
+  for (let begin = 0; begin < bytes.length; ) {
+    const { size } = readSize(new DataView(bytes.buffer, bytes.byteOffset + begin));
+    if (begin + size > bytes.length) throw new ProtocolError(`frame ${frames.length} is cut short`);
+    const start = bytes.byteOffset + begin;
+    frames.push(bytes.buffer.slice(start, start + size)); // copies: their arrays must be aligned
+    begin += size;
+  }
+  return frames;
+}
+
+/** Read a text message; throws ProtocolError on one of no known type. */
+export function parseMessage(text: string): Message {
+  let message: unknown;
+  try {
+    message = JSON.parse(text);
+  } catch {
+    throw new ProtocolError("the engine sent text that is no JSON");
+  }
+  const type = (message as { type?: unknown } | null)?.type;
+  if (type === "hello" || type === "scene" || type === "status" || type === "error") return message as Message;
+  throw new ProtocolError(`the engine sent a message of unknown type ${String(type)}`);
+}
+
+function readSize(view: DataView): { agents: number; targets: number; size: number } {
+  if (view.byteLength < HEAD) throw new ProtocolError(`a frame has at least ${HEAD} bytes, not ${view.byteLength}`);
+  const version = view.getUint8(0);
+  if (version !== VERSION) throw new ProtocolError(`frames have format ${version}; this page reads format ${VERSION}`);
+  const agents = view.getUint32(8, true);
+  const targets = view.getUint32(12, true);
+  return { agents, targets, size: HEAD + 23 * agents + 9 * targets };
+}
