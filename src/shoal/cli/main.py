@@ -21,6 +21,7 @@ app = App(
 app.command("shoal.cli.run:run", name="run", help="Run a scenario and print its metrics.")
 app.command("shoal.cli.show:show", name="show", help="Print the table of a saved record, and draw its figure.")
 app.command("shoal.cli.sweep:sweep", name="sweep", help="Run every combination of varied fields, several times each.")
+app.command("shoal.cli.compare:compare", name="compare", help="Compare strategies, with the same seeds.")
 app.command("shoal.cli.reproduce:reproduce", name="reproduce", help="Reproduce a paper: its figures, its claims.")
 app.command("shoal.cli.results:results", name="results", help="Print means and 95 % intervals of a sweep.")
 app.command("shoal.cli.results:plot", name="plot", help="Draw a metric of a sweep against a field.")

@@ -42,9 +42,7 @@ def make_leaderboard(
 ) -> Leaderboard:
     """Rank by score: in each run the mean share over all conditions, which share the run's chance."""
     informed = {each.name for each in contenders if each.informed}
-    scores = {
-        each.name: np.mean([values[each.name] for _, values in shares.values()], axis=0) for each in contenders
-    }
+    scores = {each.name: np.mean([values[each.name] for _, values in shares.values()], axis=0) for each in contenders}
     return Leaderboard(
         suite,
         suite_hash(suite, contenders),

@@ -43,7 +43,7 @@ def paired_difference(values: npt.ArrayLike, others: npt.ArrayLike) -> Differenc
 
 
 def holm(p_values: Sequence[float | None]) -> list[float | None]:
-    """Return adjusted p, in the same order: comparing each with a level bounds the chance of any false difference by it.
+    """Return adjusted p, in the same order: a level held against each bounds the chance of any false difference.
 
     Holm, "A simple sequentially rejective multiple test procedure", Scandinavian Journal of Statistics 6 (1979).
     """

@@ -19,7 +19,7 @@ from shoal.experiments.executors import Executor
 from shoal.experiments.replicate import Row
 from shoal.experiments.sweep import Progress
 
-Report = Callable[[str, Progress], None]  # the name of a condition, and how far it is
+Found = dict[str, dict[str, list[Row | None]]]  # by condition and strategy, the row of each run
 
 
 @dataclass(frozen=True)
@@ -95,36 +95,52 @@ def resized(suite: Suite, *, runs: int | None = None, steps: int | None = None, 
 
 
 def run_suite(
-    suite: Suite, contenders: Sequence[Contender], out: Path, *, executor: Executor, report: Report
-) -> dict[str, tuple[Point, dict[str, list[Row | None]]]]:
-    """Run what is missing, a sweep in a folder of its own for each condition; return every run's row, by condition.
+    suite: Suite,
+    contenders: Sequence[Contender],
+    out: Path,
+    *,
+    executor: Executor,
+    begin: Callable[[str], None] | None = None,
+    report: Callable[[Progress], None] | None = None,
+) -> Found:
+    """Run what is missing, a sweep in a folder of its own for each condition; return every run's row.
+
+    `begin` is called with the name of each condition, `report` after every run with how far the whole suite is.
 
     Raises
     ------
     ScenarioError, StrategyError, RecordError, KeyboardInterrupt : as `sweep`
     """
-    suite.cells(contenders)  # refuses what cannot run, before anything does
+    overall = Progress(total=len(suite.cells(contenders)) * suite.runs, before=0)  # refuses what cannot run
     design = comparison_design(suite.scenario, contenders, suite.runs)
     found = {}
     for condition in suite.conditions:
-
-        def tell(progress: Progress, name: str = condition.name) -> None:
-            report(name, progress)
-
-        ((_, strategies),) = run_comparison(
-            design, contenders, out / condition.folder, changes=suite.changes(condition), executor=executor, report=tell
-        )
-        found[condition.name] = (condition.changes, strategies)
+        if begin:
+            begin(condition.name)
+        store, changes = out / condition.folder, suite.changes(condition)
+        tell = _added_to(overall, report)
+        ((_, strategies),) = run_comparison(design, contenders, store, changes=changes, executor=executor, report=tell)
+        found[condition.name] = strategies
     return found
 
 
-def suite_values(
-    suite: Suite, found: dict[str, tuple[Point, dict[str, list[Row | None]]]]
-) -> dict[str, tuple[Point, Values]]:
+def suite_values(suite: Suite, found: Found) -> dict[str, tuple[Point, Values]]:
     """Return what counts under each condition, a share of 0 to 1 in every run."""
     return {
-        each.name: (each.changes, values_of(found[each.name][1], each.metric, each.whole)) for each in suite.conditions
+        each.name: (each.changes, values_of(found[each.name], each.metric, each.whole)) for each in suite.conditions
     }
+
+
+def _added_to(overall: Progress, report: Callable[[Progress], None] | None) -> Callable[[Progress], None]:
+    """Report the runs of one sweep on top of what was done so far."""
+    before, done, failed = overall.before, overall.done, overall.failed
+
+    def tell(now: Progress) -> None:
+        overall.before, overall.done, overall.failed = before + now.before, done + now.done, failed + now.failed
+        if report:
+            report(overall)
+
+    return tell
 
 
 def _moved(changes: Point, share: float) -> Point:
