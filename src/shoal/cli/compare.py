@@ -1,0 +1,97 @@
+"""shoal compare: strategies side by side, with the same seeds, beside the motionless lattice."""
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from shoal.cli.startup import load_compiler
+
+SCENARIO, METRIC = "oceans2020", "time_on_target"
+
+
+def compare(
+    *strategies: str,
+    scenario: str | None = None,
+    suite: str | None = None,
+    runs: int | None = None,
+    steps: int | None = None,
+    seed: int | None = None,
+    vary: Annotated[list[str] | None, Parameter(negative=(), consume_multiple=False)] = None,
+    assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
+    metric: str | None = None,
+    baseline: str | None = None,
+    jobs: int | None = None,
+    out: Path | None = None,
+    figure: Path | None = None,
+    markdown: Path | None = None,
+    json_: Annotated[bool, Parameter(name="--json", negative=())] = False,
+) -> None:
+    """Run strategies with the same seeds; print ranks, paired differences and what is left of them after correction.
+
+    Parameters
+    ----------
+    strategies
+        Names (see `shoal strategies`) or Python files that define one; the lattice is always added. With --suite and
+        none named: all that come with Shoal.
+    scenario
+        A preset's name or a TOML file; default oceans2020. Every strategy has its own defaults there; the scenario's
+        own strategy keeps the parameters that the scenario gives it.
+    suite
+        Run a fixed suite of conditions instead, and print a leaderboard: arena.
+    runs
+        Runs of each strategy under each condition; default 20, or the suite's.
+    steps
+        Time-steps of a run; default the scenario's, or the suite's.
+    seed
+        Seed of all chance; run r of every strategy shares its target path and its starts.
+    vary
+        FIELD=1,2,3 or FIELD=from:to:step (end included): compare under every combination; may be repeated.
+    assignments
+        Any field by its path, under all conditions; may be repeated.
+    metric
+        What is compared; default time_on_target.
+    baseline
+        The strategy that all others are compared with; default the first one named.
+    jobs
+        Threads, one run each; default one per core.
+    out
+        Keep all runs in this folder, a store like any sweep's; the same command again resumes.
+    figure
+        Draw bars, or curves if one number varies, to this file (.png, .svg or .pdf).
+    markdown
+        With --suite, write the leaderboard into this page, between its two markers.
+    json_
+        Print one JSON object and nothing else.
+    """
+    load_compiler()
+    from shoal.cli.compare_strategies import compare_strategies
+    from shoal.cli.compare_suite import compare_suite
+    from shoal.core.errors import ScenarioError
+    from shoal.experiments.paired import need_scipy
+
+    need_scipy()
+    if figure:
+        from shoal.viz.files import figure_format
+
+        figure_format(figure)  # refused before the runs, not after
+    for name, number in (("--runs", runs), ("--steps", steps), ("--jobs", jobs)):
+        if number is not None and number <= 0:
+            raise ScenarioError(name, f"is {number}", "give a number above 0")
+    if not suite:
+        if markdown:
+            raise ScenarioError("--markdown", "needs --suite", "add --suite arena; --json gives other comparisons")
+        compare_strategies(
+            strategies, scenario or SCENARIO, runs=runs, steps=steps, seed=seed, vary=vary or [],
+            assignments=assignments or [], metric=metric or METRIC, baseline=baseline, jobs=jobs, out=out,
+            figure=figure, as_json=json_,
+        )  # fmt: skip
+        return
+    fixed = {"--scenario": scenario, "--vary": vary, "--set": assignments, "--metric": metric, "--baseline": baseline}
+    for name, given in fixed.items():
+        if given:
+            raise ScenarioError(name, f"does not go with --suite: {suite} has its own", "leave out one of the two")
+    compare_suite(
+        strategies, suite, runs=runs, steps=steps, seed=seed, jobs=jobs, out=out, figure=figure, markdown=markdown,
+        as_json=json_,
+    )  # fmt: skip

@@ -1,0 +1,76 @@
+"""Comparisons as figures: what the charts of viz are given."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from shoal.experiments.comparison import Comparison, Condition
+from shoal.experiments.contenders import LATTICE
+from shoal.experiments.leaderboard import Leaderboard
+from shoal.metrics.summary import METRICS
+from shoal.viz.comparison import Bar, Panel, bars_figure, curves_figure
+from shoal.viz.sweep import Curve
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def comparison_figure(comparison: Comparison, metric: str) -> "Figure":
+    """Curves if one number varies, else bars: a panel per condition."""
+    words, unit = metric.replace("_", " "), METRICS[metric].unit
+    label = words if unit == "1" else f"{words} [{unit}]"
+    points = [each.point for each in comparison.conditions]
+    if len(points) > 1 and all(len(point) == 1 and _is_number(*point.values()) for point in points):
+        field = next(iter(points[0]))
+        return curves_figure(_curves(comparison, field), field.replace("_", " "), label, LATTICE, _informed(comparison))
+    return bars_figure(_panels(comparison.conditions, _order(comparison.conditions)), label, LATTICE)
+
+
+def leaderboard_figure(board: Leaderboard) -> "Figure":
+    """The score, then the share under each condition, all in the order of the score."""
+    order = [each.strategy for each in board.overall.standings]
+    return bars_figure(_panels([board.overall, *board.shares.conditions], order), "", LATTICE)
+
+
+def _panels(conditions: Sequence[Condition], order: Sequence[str]) -> list[Panel]:
+    return [Panel(each.name, [_bar(each, strategy) for strategy in order]) for each in conditions]
+
+
+def _bar(condition: Condition, strategy: str) -> Bar:
+    each = condition.of(strategy)
+    low, high = each.value.ci95 or (None, None)
+    return Bar(strategy, each.value.mean, low, high, each.informed)
+
+
+def _order(conditions: Sequence[Condition]) -> list[str]:
+    """By mean place over all conditions, which is the ranking if there is one."""
+    places: dict[str, list[int]] = {}
+    for condition in conditions:
+        for place, each in enumerate(condition.standings):
+            places.setdefault(each.strategy, []).append(place)
+    return sorted(places, key=lambda strategy: float(np.mean(places[strategy])))
+
+
+def _curves(comparison: Comparison, field: str) -> list[Curve]:
+    conditions = sorted(comparison.conditions, key=lambda each: float(each.point[field]))
+    curves = []
+    for first in comparison.conditions[0].standings:
+        curve = Curve(first.strategy, [], [], [], [])
+        for condition in conditions:
+            value = condition.of(first.strategy).value
+            low, high = value.ci95 or (None, None)
+            curve.x.append(condition.point[field])
+            curve.mean.append(value.mean)
+            curve.low.append(low)
+            curve.high.append(high)
+        curves.append(curve)
+    return curves
+
+
+def _informed(comparison: Comparison) -> list[str]:
+    return [each.strategy for each in comparison.conditions[0].standings if each.informed]
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)

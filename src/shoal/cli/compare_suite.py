@@ -1,0 +1,66 @@
+"""shoal compare --suite: a leaderboard over fixed conditions."""
+
+import json
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from shoal.cli.compare_store import store_folder, tell_failures
+from shoal.cli.progress import note
+from shoal.cli.sweep_progress import sweep_progress
+
+
+def compare_suite(
+    named: Sequence[str],
+    name: str,
+    *,
+    runs: int | None,
+    steps: int | None,
+    seed: int | None,
+    jobs: int | None,
+    out: Path | None,
+    figure: Path | None,
+    markdown: Path | None,
+    as_json: bool,
+) -> None:
+    """Run what is missing of a suite, and print its leaderboard."""
+    from shoal.cli.compare_data import leaderboard_data
+    from shoal.cli.compare_figure import leaderboard_figure
+    from shoal.cli.compare_table import print_leaderboard
+    from shoal.experiments.compiling import compiled_first
+    from shoal.experiments.contenders import contenders
+    from shoal.experiments.executors import in_threads
+    from shoal.experiments.leaderboard import make_leaderboard
+    from shoal.experiments.leaderboard_page import page_around, write_page
+    from shoal.experiments.suite import read_suite, resized, run_suite, suite_values
+    from shoal.strategies import CATALOGUE
+
+    suite = resized(read_suite(name), runs=runs, steps=steps, seed=seed)
+    everybody = contenders(named or sorted(CATALOGUE))
+    if markdown:
+        page_around(markdown, name)  # refused before the runs, not after
+    titles = [each.name for each in suite.conditions]
+
+    def begin(title: str) -> None:
+        note(f"{title} ({titles.index(title) + 1} of {len(titles)})")
+
+    begun = time.monotonic()
+    with store_folder(out) as folder, sweep_progress() as report:
+        execute = compiled_first(in_threads(jobs), note)
+        found = run_suite(suite, everybody, folder, executor=execute, begin=begin, report=report)
+    tell_failures(row for strategies in found.values() for rows in strategies.values() for row in rows)
+    board = make_leaderboard(suite, everybody, suite_values(suite, found))
+    if markdown:
+        write_page(board, markdown, named)
+        note(f"page: {markdown}")
+    if figure:
+        from shoal.viz.files import save_figure
+
+        save_figure(leaderboard_figure(board), figure)
+        note(f"figure: {figure}")
+    if as_json:
+        sys.stdout.write(json.dumps(leaderboard_data(board)) + "\n")
+    else:
+        print_leaderboard(board)
+    note(f"{time.monotonic() - begun:.0f} s" + (f"; all runs: a sweep per condition in {out}" if out else ""))

@@ -1,0 +1,71 @@
+"""What a standing says in words, the same in a terminal and on a page."""
+
+import math
+
+from shoal.experiments.comparison import Comparison, Standing
+from shoal.experiments.paired import SIGNIFICANT
+
+REFERENCES = (
+    "References that know the target have no rank: no buoy could follow them. They are no upper bound; no proven one "
+    "is known."
+)
+
+
+def rank_text(each: Standing) -> str:
+    """Rank, or that there is none."""
+    return "–" if each.rank is None else str(each.rank)
+
+
+def name_text(each: Standing) -> str:
+    """Name, marked if it knows the target."""
+    return f"{each.strategy} (knows the target)" if each.informed else each.strategy
+
+
+def value_text(each: Standing) -> str:
+    """Mean, half the width of its interval, and of how many runs if some are missing."""
+    runs = len(each.value.runs)
+    if runs == 0:
+        return f"none of {each.missing} runs"
+    some = f" ({runs} of {runs + each.missing} runs)" if each.missing else ""
+    return number(each.value.mean) + _half(each.value.ci95) + some
+
+
+def difference_text(each: Standing) -> str:
+    """Signed difference and half the width of its interval."""
+    known = each.difference
+    if known is None or known.pairs == 0:
+        return ""
+    size = number(abs(known.mean))
+    sign = "" if float(size) == 0 else "+" if known.mean > 0 else "−"
+    return sign + size + _half(known.ci95)
+
+
+def p_text(p: float | None) -> str:
+    """Three decimals; below, that it is."""
+    if p is None:
+        return ""
+    return "< 0.001" if p < 0.001 else f"{p:.3f}"
+
+
+def share_text(each: Standing) -> str:
+    """Mean, and the sign of a difference that was shown."""
+    sign = {"better": " +", "worse": " −"}.get(each.verdict, "")
+    return "none" if math.isnan(each.value.mean) else f"{each.value.mean:.3f}{sign}"
+
+
+def family_text(comparison: Comparison) -> str:
+    """What intervals, adjusted p and verdicts mean here."""
+    return (
+        "Differences are over paired runs (same seeds); each 95 % interval is for that difference alone (Student's t). "
+        f"Adjusted p is Holm's, for all {comparison.tests} comparisons of the table together: verdicts need it below "
+        f"{SIGNIFICANT:g}, so that the chance of any false one among them is at most {100 * SIGNIFICANT:g} %."
+    )
+
+
+def number(value: float) -> str:
+    """Three decimals, one for large numbers."""
+    return f"{value:.{3 if abs(value) < 100 else 1}f}"
+
+
+def _half(interval: tuple[float, float] | None) -> str:
+    return f" ± {number((interval[1] - interval[0]) / 2)}" if interval else ""

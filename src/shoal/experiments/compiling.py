@@ -1,0 +1,31 @@
+"""Compile what runs need before they begin, one strategy after the other, and say which."""
+
+from collections.abc import Callable, Iterable, Iterator
+
+from shoal.experiments.executors import Done, Executor, Task
+from shoal.scenario.crew import crew_of
+from shoal.simulation import Simulation, mark_compiled, needs_compiling
+
+
+def compiled_first(execute: Executor, tell: Callable[[str], None]) -> Executor:
+    """Return an executor that compiles the strategies of its tasks first; `tell` gets a line for each.
+
+    Threads would wait for each other: numba compiles one function at a time. Strategies that come with Shoal are
+    compiled once per version, those from a file in every process.
+
+    Raises
+    ------
+    StrategyError : a strategy from a file that cannot be compiled or run; nothing has run then
+    """
+
+    def run(tasks: Iterable[Task]) -> Iterator[Done]:
+        wanted = list(tasks)
+        scenarios = {crew_of(cell.scenario).params.__class__: cell.scenario for cell, _ in wanted}
+        pending = [each for each in scenarios.values() if needs_compiling(each)]
+        for number, scenario in enumerate(pending, 1):
+            tell(f"compiling {crew_of(scenario).name} ({number} of {len(pending)}, some seconds each)")
+            Simulation(scenario).advance(1)
+            mark_compiled(scenario)
+        yield from execute(wanted)
+
+    return run

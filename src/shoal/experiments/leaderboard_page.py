@@ -1,0 +1,153 @@
+"""A leaderboard as a part of a Markdown page: the same runs, the same bytes."""
+
+import shlex
+from collections.abc import Sequence
+from pathlib import Path
+
+from shoal.core.errors import RecordError
+from shoal.experiments.comparison import Condition
+from shoal.experiments.comparison_words import (
+    REFERENCES,
+    difference_text,
+    family_text,
+    name_text,
+    p_text,
+    rank_text,
+    share_text,
+    value_text,
+)
+from shoal.experiments.contenders import LATTICE
+from shoal.experiments.leaderboard import Leaderboard
+from shoal.experiments.results import write_whole
+from shoal.experiments.suite import SuiteCondition, read_suite
+from shoal.version import RESULTS_VERSION, VERSION
+
+BEGIN, END = "<!-- shoal compare: begin -->", "<!-- shoal compare: end -->"
+
+
+def write_page(board: Leaderboard, file: Path, named: Sequence[str] = ()) -> None:
+    """Replace what is between the two markers of a page; a page that is not there is begun.
+
+    Raises
+    ------
+    RecordError : the page has no markers, or cannot be read or written; it is as it was then
+    """
+    before, after = page_around(file, board.suite.name)
+    write_whole(file, f"{before}{BEGIN}\n{page_part(board, named)}\n{END}{after}".encode())
+
+
+def page_around(file: Path, title: str) -> tuple[str, str]:
+    """Return what a page says before and after the markers.
+
+    Raises
+    ------
+    RecordError : it has none, or cannot be read
+    """
+    try:
+        text = file.read_text(encoding="utf-8") if file.exists() else f"# Suite {title}\n\n{BEGIN}\n{END}\n"
+    except (OSError, UnicodeDecodeError) as error:
+        raise RecordError(str(file), f"cannot be read: {error}", "name a Markdown file") from error
+    before, begin, rest = text.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not begin or not end:
+        fix = f"write two lines where it belongs: {BEGIN} and {END}"
+        raise RecordError(str(file), "has no place for the leaderboard", fix)
+    return before, after
+
+
+def page_part(board: Leaderboard, named: Sequence[str] = ()) -> str:
+    """Leaderboard, what standing still is worth, and a table per condition, with what made them."""
+    conditions = zip(board.suite.conditions, board.shares.conditions, strict=True)
+    return "\n\n".join(
+        [
+            _made_by(board, named),
+            "## Leaderboard",
+            f"Score: the mean of the shares, 0 to 1, under the {len(board.suite.conditions)} conditions, which are the "
+            "columns to its right. There **+** is better and **−** worse than standing still; without a sign no "
+            "difference is shown.",
+            _overview(board),
+            f"{family_text(board.score)} {REFERENCES}",
+            "## When standing still wins",
+            standing_still(board),
+            "## Condition by condition",
+            family_text(board.shares).replace("of the table", "of the tables below"),
+            *(_section(told, found) for told, found in conditions),
+        ]
+    )
+
+
+def standing_still(board: Leaderboard) -> str:
+    """Say for every condition whom the motionless lattice beats, and to whom no difference is shown."""
+    ranked = sum(each.rank is not None for each in board.overall.standings)
+    first = [each.name for each in board.shares.conditions if each.of(LATTICE).rank == 1]
+    lines = [
+        f"Standing still (`{LATTICE}`) ranks {board.overall.of(LATTICE).rank} of {ranked} by score. "
+        f"It comes first under {', '.join(first) or 'no condition'}.",
+        "",
+    ]
+    for condition in (board.overall, *board.shares.conditions):
+        beaten, equal = (_names(condition, verdict) for verdict in ("worse", "no difference shown"))
+        told = [f"it beats {beaten}"] * bool(beaten) + [f"no difference is shown to {equal}"] * bool(equal)
+        lines.append(f"- **{condition.name}**: {'; '.join(told) or 'it neither beats nor equals any'}.")
+    return "\n".join(lines)
+
+
+def _made_by(board: Leaderboard, named: Sequence[str]) -> str:
+    suite, asked = board.suite, read_suite(board.suite.name)
+    changed = [name for name in ("runs", "steps", "seed") if getattr(suite, name) != getattr(asked, name)]
+    options = [part for name in changed for part in (f"--{name}", str(getattr(suite, name)))]
+    command = shlex.join(["shoal", "compare", *named, "--suite", suite.name, *options])
+    made = (
+        f"Made by `{command}`: {suite.runs} runs of {suite.steps:,} steps each, seed {suite.seed}, Shoal {VERSION}, "
+        f"results version {RESULTS_VERSION}, suite hash {board.hash}."
+    )
+    if suite.runs >= asked.runs and suite.steps >= asked.steps:
+        return made
+    return (
+        f"> **A short trial**, not to be cited: {suite.runs} runs of {suite.steps:,} steps, where the suite asks for "
+        f"{asked.runs} of {asked.steps:,}.\n\n{made}"
+    )
+
+
+def _overview(board: Leaderboard) -> str:
+    conditions = board.shares.conditions
+    head = ["rank", "strategy", "score ± 95 %", "minus lattice", "adjusted p", *(each.name for each in conditions)]
+    rows = [
+        [
+            rank_text(each),
+            name_text(each),
+            value_text(each),
+            difference_text(each),
+            p_text(each.adjusted_p),
+            *(share_text(condition.of(each.strategy)) for condition in conditions),
+        ]
+        for each in board.overall.standings
+    ]
+    return _markdown(head, rows)
+
+
+def _section(told: SuiteCondition, found: Condition) -> str:
+    whole = f" / {told.whole:g}" if told.whole != 1 else ""
+    head = ["rank", "strategy", "share ± 95 %", "minus lattice", "adjusted p", "verdict"]
+    rows = [
+        [
+            rank_text(each),
+            name_text(each),
+            value_text(each),
+            difference_text(each),
+            p_text(each.adjusted_p),
+            each.verdict,
+        ]
+        for each in found.standings
+    ]
+    says = told.says[0].upper() + told.says[1:]
+    return f"### {told.name}\n\n{says}. Share: `{told.metric}`{whole}.\n\n{_markdown(head, rows)}"
+
+
+def _names(condition: Condition, verdict: str) -> str:
+    return ", ".join(each.strategy for each in condition.standings if each.verdict == verdict and not each.informed)
+
+
+def _markdown(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    align = [":---" if name in ("strategy", "verdict") else "---:" for name in head]
+    return "\n".join("| " + " | ".join(row) + " |" for row in (head, align, *rows))
