@@ -1,10 +1,14 @@
 """Every example runs, and the page that quotes it quotes it to the letter."""
 
+import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+from shoal.cli.main import run_command
 
 ROOT = Path(__file__).resolve().parents[1]
 SCRIPTS = [file for file in sorted((ROOT / "examples").glob("*.py")) if file.name != "my_strategy.py"]
@@ -26,6 +30,19 @@ def test_the_example_strategy_runs(tmp_path):
     assert "strategy wander" in done.stdout
 
 
-def test_the_page_quotes_the_example():
-    page = (ROOT / "docs/how-to/own-strategy.md").read_text(encoding="utf-8")
-    assert (ROOT / "examples/my_strategy.py").read_text(encoding="utf-8") in page
+@pytest.mark.parametrize(("page", "example"), [("own-strategy.md", "my_strategy.py"), ("figures.md", "figures.py")])
+def test_the_page_quotes_the_example(page, example):
+    text = (ROOT / "docs/how-to" / page).read_text(encoding="utf-8")
+    assert (ROOT / "examples" / example).read_text(encoding="utf-8") in text
+
+
+def test_the_commands_and_the_code_of_the_page_on_films_run(tmp_path, monkeypatch, capsys):
+    pytest.importorskip("imageio_ffmpeg", reason="films need imageio-ffmpeg: pip install 'shoal[video]'")
+    monkeypatch.chdir(tmp_path)
+    page = (ROOT / "docs/how-to/film.md").read_text(encoding="utf-8")
+    _, commands, *_ = re.findall(r"```sh\n(.*?)```", page, flags=re.DOTALL)
+    for line in commands.splitlines():
+        assert run_command(shlex.split(line, comments=True)[1:]) == 0, capsys.readouterr().err
+    (code,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
+    exec(code, {})
+    assert {file.name for file in tmp_path.iterdir()} == {"swarm.mp4", "links.gif", "still.png", "run", "run.mp4"}

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shoal.core.errors import RecordError, ScenarioError
-from shoal.experiments.replicate import LIST_COLUMNS, Row
-from shoal.experiments.results import aggregate, read_rows
+from shoal.experiments.replicate import Row
+from shoal.experiments.results import aggregate, default_x, varied_rows
 from shoal.metrics.summary import METRICS
 from shoal.record.files import open_record
 from shoal.record.record import Record
@@ -29,6 +29,7 @@ from shoal.viz.footage import present
 from shoal.viz.histogram import draw_phi_histogram
 from shoal.viz.layout import snapshot_size
 from shoal.viz.legend import legend_height, map_legend_height, short_name
+from shoal.viz.scene import Parts
 from shoal.viz.snapshot import draw_snapshot, frames_of
 from shoal.viz.stretch import frame_of
 from shoal.viz.style import new_figure, style
@@ -43,6 +44,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Film",
     "FilmLook",
+    "Parts",
     "curves",
     "phi_histogram",
     "save",
@@ -58,7 +60,6 @@ Page = tuple[tuple[float, float, float, float], float, float]  # [inch] axes; ro
 _PHI = (0.62, 0.74, 3.6, 2.3)  # [inch] left, bottom, width and height of a histogram alone
 _CHART = (0.62, 0.48, 3.6, 2.3)  # of a chart with one line of labels below
 _TOP, _RIGHT = 0.35, 0.2
-_RUN_COLUMNS = ("run_id", "run", "seed", "scenario_hash", "status", "error", "started", "seconds")
 
 
 def snapshot(
@@ -181,10 +182,10 @@ def curves(
     ------
     ScenarioError : no such field or metric, or no run that ended well
     """
-    fields, rows = _rows(results)
+    fields, rows = varied_rows(results)
     if y not in METRICS:
         raise ScenarioError(f"y {y}", "is no metric", f"there are: {', '.join(METRICS)}")
-    x = x or _default_x(fields, rows)
+    x = x or default_x(fields, rows)
     hue = hue or next((name for name in fields if name != x), None)
     names = [name for name in (hue, x) if name]
     unknown = [name for name in names if rows and name not in rows[0]]
@@ -256,21 +257,3 @@ def _drawn(
         figure = axes.get_figure(root=True)
         assert figure is not None  # axes have one
         return figure
-
-
-def _rows(results: Any) -> tuple[list[str], list[Row]]:
-    """The fields that vary, and the rows."""
-    if isinstance(results, (str, Path)):
-        return read_rows(results)
-    rows = [{"status": "done", **row} for row in getattr(results, "to_dict", lambda _: results)("records")]
-    names = list(rows[0]) if rows else []
-    fields = [name for name in names if name not in METRICS and name not in (*LIST_COLUMNS, *_RUN_COLUMNS)]
-    return [name for name in fields if len({str(row[name]) for row in rows}) > 1], rows
-
-
-def _default_x(fields: list[str], rows: list[Row]) -> str:
-    numeric = [name for name in fields if all(isinstance(row[name], (int, float)) for row in rows)]
-    if not numeric:
-        known = f"choose one of: {', '.join(fields)}" if fields else "vary one, such as --vary neighbors=10,20,30"
-        raise ScenarioError("x", "no varied field is a number", known)
-    return max(numeric, key=lambda name: len({row[name] for row in rows}))

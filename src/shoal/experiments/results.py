@@ -14,6 +14,8 @@ from shoal.experiments.store import Store
 from shoal.metrics.summary import METRICS
 from shoal.record.statistics import estimate
 
+_OF_A_RUN = ("run_id", "run", "seed", "scenario_hash", "status", "error", "started", "seconds")  # columns, no fields
+
 
 def read_rows(folder: str | Path) -> tuple[list[str], list[Row]]:
     """Return the fields that a sweep varies and all its rows, in the order of their values.
@@ -24,6 +26,35 @@ def read_rows(folder: str | Path) -> tuple[list[str], list[Row]]:
     """
     with Store(folder, read_only=True) as store:
         return json.loads(store.meta()["fields"]), store.rows()
+
+
+def varied_rows(results: Any) -> tuple[list[str], list[Row]]:
+    """Return the fields that vary and all rows of a sweep: its folder, its rows, or the DataFrame of `load_results`.
+
+    Raises
+    ------
+    RecordError : the folder holds no sweep
+    """
+    if isinstance(results, (str, Path)):
+        return read_rows(results)
+    table = results.to_dict("records") if hasattr(results, "to_dict") else results
+    rows = [{"status": "done", **row} for row in table]
+    fields = [name for name in (rows[0] if rows else {}) if name not in (*METRICS, *LIST_COLUMNS, *_OF_A_RUN)]
+    return [name for name in fields if len({str(row[name]) for row in rows}) > 1], rows
+
+
+def default_x(fields: Sequence[str], rows: Sequence[Row]) -> str:
+    """Return the numeric field with most values.
+
+    Raises
+    ------
+    ScenarioError : there is none
+    """
+    numeric = [name for name in fields if all(isinstance(row[name], (int, float)) for row in rows)]
+    if not numeric:
+        known = f"choose one of: {', '.join(fields)}" if fields else "vary one, such as --vary neighbors=10,20,30"
+        raise ScenarioError("x", "no varied field is a number", known)
+    return max(numeric, key=lambda name: len({row[name] for row in rows}))
 
 
 def load_results(folder: str | Path) -> Any:

@@ -28,7 +28,7 @@ def locked_figure(record: Record) -> Figure:
     frames = record.trajectories[_RUN]
     x, y = frames.x[found.frame], frames.y[found.frame]
     with style():
-        width, height = 4.6, 5.2
+        width, height = 4.6, 5.3
         figure = new_figure(width, height)
         axes = figure.add_axes((0.62 / width, 0.73 / height, 3.85 / width, 3.85 / height))
         draw_snapshot(axes, record, _RUN, found.frame, trail=_TRAIL)

@@ -92,13 +92,14 @@ def _running(file: Path, command: list[str]) -> Iterator[IO[bytes]]:
         process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=told, stderr=told, start_new_session=True)
         pipe = process.stdin
         assert pipe is not None  # asked for
+        broken = False
         try:
             try:
                 yield pipe
                 pipe.close()
             except BrokenPipeError:
-                process.wait()  # it has said why
-            if process.wait() != 0:
+                broken = True  # and it has said why
+            if process.wait() != 0 or broken:
                 told.seek(0)
                 lines = told.read().decode(errors="replace").split("\n")
                 raise _failed(file, next((line for line in reversed(lines) if line.strip()), "ffmpeg failed"))

@@ -13,7 +13,7 @@ from shoal.viz.files import save_figure
 from shoal.viz.film_page import FilmPage, film_size
 from shoal.viz.scene import Parts
 from shoal.viz.snapshot import frames_of
-from shoal.viz.stretch import Stretch, frame_of, stretch_of
+from shoal.viz.stretch import stretch_of
 from shoal.viz.style import style
 
 FORMATS = ("mp4", "gif", "png")
@@ -79,19 +79,11 @@ def write_film(
     file = Path(path)
     kind = check_film(file, look)
     kept = np.asarray(frames_of(record, run).step)
-    if kind == "png" and steps == 1 and start is not None:
-        stretch = Stretch(np.array([frame_of(kept, start)]), 1)
-    else:
-        stretch = stretch_of(kept, start, steps, every)
+    stretch = stretch_of(kept, start, steps, every)
     fps = look.fps or _FPS[kind]
+    width = look.width or round(_WIDTH[kind] * (_WIDER if look.panels else 1.0))
     with style():
-        size = film_size(
-            record,
-            look.width or round(_WIDTH[kind] * (_WIDER if look.panels else 1.0)),
-            look.height,
-            look.parts,
-            look.panels,
-        )
+        size = film_size(record, width, look.height, look.parts, look.panels)
         page = FilmPage(record, run, stretch, size, look.parts, look.panels)
         if kind == "png":
             page.show(stretch.frames.size - 1)

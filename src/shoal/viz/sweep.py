@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shoal.viz.curves import draw_curve
-from shoal.viz.style import GRAY, fleet_color, fleet_marker, new_figure, style
+from shoal.viz.style import FLEET_COLORS, GRAY, fleet_marker, new_figure, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _WIDTH, _HEIGHT = 6.4, 3.9  # [in]
+_COLORS = tuple(FLEET_COLORS[at] for at in (0, 2, 3, 1, 5, 6))  # neighbors in a legend differ most
 
 
 @dataclass
@@ -37,6 +38,8 @@ def sweep_page(curves: list[Curve], x_label: str, y_label: str, unit: str) -> "F
 
 def draw_sweep(axes: "Axes", curves: list[Curve], x_label: str, y_label: str, unit: str) -> None:
     """Draw curves with bands and their legend above; words on the x axis become categories."""
+    from matplotlib.ticker import MaxNLocator
+
     words = sorted({str(x) for curve in curves for x in curve.x if isinstance(x, str)})
     for number, curve in enumerate(curves):
         order = sorted(range(len(curve.x)), key=lambda i: words.index(str(curve.x[i])) if words else curve.x[i])
@@ -44,9 +47,11 @@ def draw_sweep(axes: "Axes", curves: list[Curve], x_label: str, y_label: str, un
         mean, low, high = (
             np.array([values[i] for i in order], float) for values in (curve.mean, curve.low, curve.high)
         )
-        draw_curve(axes, x, mean, low, high, curve.label, fleet_color(number), fleet_marker(number))
+        draw_curve(axes, x, mean, low, high, curve.label, _COLORS[number % len(_COLORS)], fleet_marker(number))
     if words:
         axes.set_xticks(range(len(words)), words)
+    elif all(float(x).is_integer() for curve in curves for x in curve.x):
+        axes.xaxis.set_major_locator(MaxNLocator(8, steps=[1, 2, 5, 10], integer=True))
     axes.set_xlabel(x_label)
     axes.set_ylabel("" if unit == "1" else f"[{unit}]")
     axes.set_title(y_label, pad=22 if any(curve.label for curve in curves) else 7, wrap=True)
