@@ -143,6 +143,11 @@ export class App implements Listener {
     links: (): number => this.stages[0]?.links ?? 0,
     agents: (): number => this.stages[0]?.livingAgents() ?? 0,
     frame: (): ArrayBuffer => this.stages[0]?.frame?.bytes.slice(0) ?? new ArrayBuffer(0),
+    /** Where on the canvas a point of the arena [m] is drawn [px]. */
+    place: (x: number, y: number): [number, number] => {
+      const camera = this.stages[0]?.camera;
+      return camera ? [camera.toX(x), camera.toY(y)] : [NaN, NaN];
+    },
     playing: (): boolean => this.status_?.playing ?? false,
     fps: (): number => this.stages[0]?.fps(performance.now()) ?? 0,
   };
