@@ -1,6 +1,7 @@
 // The page: what comes from the source goes to stages and panels, what people do goes back.
 
 import { byId, el } from "./dom";
+import { forgetFleets, rememberFleets } from "./fleets";
 import { count, short } from "./format";
 import { History } from "./history";
 import { listen, type Key } from "./keyboard";
@@ -53,6 +54,7 @@ export class App implements Listener {
   hello(hello: Hello): void {
     this.hello_ = hello;
     this.status_ = null;
+    forgetFleets();
     byId("banner").hidden = true;
     document.body.dataset.runs = String(hello.runs);
     const letters = hello.runs > 1 ? ["A", "B"].slice(0, hello.runs) : [""];
@@ -83,7 +85,9 @@ export class App implements Listener {
   scene(run: number, scene: Scene): void {
     const numbers = this.runs[run];
     const before = this.stages[run]?.newest?.epoch;
-    if (!this.stages[run]?.learn(scene)) return;
+    if (!numbers) return;
+    rememberFleets(scene);
+    if (!this.stages[run].learn(scene)) return;
     numbers.scene = scene;
     if (scene.epoch !== before) {
       numbers.history.cut(scene.since);
@@ -143,6 +147,11 @@ export class App implements Listener {
     links: (): number => this.stages[0]?.links ?? 0,
     agents: (): number => this.stages[0]?.livingAgents() ?? 0,
     frame: (): ArrayBuffer => this.stages[0]?.frame?.bytes.slice(0) ?? new ArrayBuffer(0),
+    /** Where on the canvas a point of the arena [m] is drawn [px]. */
+    place: (x: number, y: number): [number, number] => {
+      const camera = this.stages[0]?.camera;
+      return camera ? [camera.toX(x), camera.toY(y)] : [NaN, NaN];
+    },
     playing: (): boolean => this.status_?.playing ?? false,
     fps: (): number => this.stages[0]?.fps(performance.now()) ?? 0,
   };
@@ -152,6 +161,7 @@ export class App implements Listener {
     if (this.uncounted && this.numbers && now - this.counted >= NUMBERS_EVERY) {
       this.counted = now;
       this.uncounted = false;
+      for (const stage of this.stages) stage.describe(this.status_?.playing ?? false);
       const newest = Math.max(...this.runs.map(({ frame }) => frame?.step ?? 0));
       this.numbers.draw(this.theme, this.runs, this.status_?.last ?? newest);
     }

@@ -51,7 +51,7 @@ export function drawLines(
   for (const line of lines) {
     context.strokeStyle = line.color;
     context.lineWidth = line.width;
-    context.lineJoin = "round";
+    context.lineJoin = context.lineCap = "round";
     context.setLineDash(line.dash ?? []);
     context.beginPath();
     let drawing = false;
@@ -61,6 +61,7 @@ export function drawLines(
       else if (drawing) context.lineTo(toX(line.step[n]), toY(value));
       else {
         context.moveTo(toX(line.step[n]), toY(value));
+        context.lineTo(toX(line.step[n]), toY(value)); // a point alone is a dot
         drawing = true;
       }
     }

@@ -1,6 +1,7 @@
 // What the view is made of, from the water up: each layer is one function that draws on the canvas.
 
 import { ticks, type Camera } from "./camera";
+import { fastestFleet, styleOf } from "./fleets";
 import { fixed } from "./format";
 import type { Pairs } from "./neighbors";
 import { fleetColor, fleetMarker, TARGET_COLOR, traceMarker, type Theme } from "./palette";
@@ -144,11 +145,11 @@ export function drawTrails({ context, camera }: Brush, { scene, frame, x, y, pas
   context.lineWidth = lineWidth(size);
   const stride = frame.x.length > MANY ? Math.max(Math.ceil(past.length / 3), 1) : 1;
   forEachFleet(scene, frame.x.length, (fleet, begin, end) => {
-    context.strokeStyle = fleetColor(fleet);
+    context.strokeStyle = fleetColor(styleOf(scene.fleets[fleet]));
     for (let age = stride; age <= past.length; age += stride) {
       const old = past[past.length - age];
       const next = age === stride ? { x, y } : past[past.length - age + stride];
-      context.globalAlpha = 0.6 * (1 - (age - 1) / past.length) + 0.04;
+      context.globalAlpha = 0.45 * (1 - (age - 1) / past.length) + 0.04;
       context.beginPath();
       for (let agent = begin; agent < end; agent++) {
         if (!isAlive(frame, agent) || !isAlive(old, agent)) continue;
@@ -165,7 +166,7 @@ export function drawHeadings({ context, camera }: Brush, { scene, frame, x, y }:
   context.lineWidth = lineWidth(size);
   forEachFleet(scene, x.length, (fleet, begin, end) => {
     const reach = (2.6 * size) / scene.fleets[fleet].max_speed;
-    context.strokeStyle = fleetColor(fleet);
+    context.strokeStyle = fleetColor(styleOf(scene.fleets[fleet]));
     context.beginPath();
     for (let agent = begin; agent < end; agent++) {
       if (!isAlive(frame, agent)) continue;
@@ -184,8 +185,8 @@ export function drawHeadings({ context, camera }: Brush, { scene, frame, x, y }:
 export function drawAgents({ context, camera, theme }: Brush, { scene, frame, x, y }: Moment, size: number): void {
   forEachFleet(scene, x.length, (fleet, begin, end) => {
     const radius = size * fleetSize(scene, fleet);
-    const marker = fleetMarker(fleet);
-    context.fillStyle = fleetColor(fleet);
+    const marker = fleetMarker(styleOf(scene.fleets[fleet]));
+    context.fillStyle = fleetColor(styleOf(scene.fleets[fleet]));
     for (const onTarget of [false, true]) {
       context.beginPath();
       for (let agent = begin; agent < end; agent++) {
@@ -255,8 +256,7 @@ export function drawCrosshair({ context, camera, theme }: Brush, at: { x: number
 
 /** How big the marker of a fleet is beside that of the fastest: like its square root of speed, within reason. */
 export function fleetSize(scene: Scene, fleet: number): number {
-  const fastest = Math.max(...scene.fleets.map((each) => each.max_speed));
-  return Math.max(Math.sqrt(scene.fleets[fleet].max_speed / fastest), 0.72);
+  return Math.max(Math.sqrt(scene.fleets[fleet].max_speed / fastestFleet().max_speed), 0.72);
 }
 
 /** Fleet of an agent: agents are numbered in the order of the fleets. */
@@ -294,7 +294,7 @@ function drawDiscs(
       context.moveTo(px + r, py);
       context.arc(px, py, r, 0, TURN);
     }
-    context.fillStyle = context.strokeStyle = fleetColor(fleet);
+    context.fillStyle = context.strokeStyle = fleetColor(styleOf(scene.fleets[fleet]));
     context.globalAlpha = theme.dark ? 0.16 : 0.1;
     if (x.length <= MANY) context.fill();
     context.globalAlpha = theme.dark ? 0.6 : 0.4;

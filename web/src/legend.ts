@@ -1,6 +1,7 @@
 // What the signs on the water mean.
 
 import { el, svg } from "./dom";
+import { styleOf } from "./fleets";
 import { count, short } from "./format";
 import { fleetGlyph, glyph, TARGET_COLOR } from "./palette";
 import type { Scene } from "./protocol";
@@ -12,9 +13,9 @@ export class Legend {
 
   describe(scene: Scene): void {
     this.root.replaceChildren();
-    scene.fleets.forEach((fleet, number) => {
-      this.add(fleetGlyph(number), `${count(fleet.count)} ${fleet.name}, ${short(fleet.max_speed)} m/s`);
-    });
+    for (const fleet of scene.fleets) {
+      this.add(fleetGlyph(styleOf(fleet)), `${count(fleet.count)} ${fleet.name}, ${short(fleet.max_speed)} m/s`);
+    }
     this.add(glyph("rimmed", "currentColor", svg("circle", { r: 5 })), "on target");
     for (const [words, radius] of targetKinds(scene)) {
       const disc = svg("circle", { r: 6, "fill-opacity": 0.22, fill: "currentColor", stroke: "currentColor" });

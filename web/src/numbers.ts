@@ -80,7 +80,7 @@ export class Numbers {
       el("div", { class: "top" }, el("h3", {}, "Metrics of the record")),
       el(
         "table", { id: "metrics" },
-        el("thead", {}, el("tr", {}, ...["metric", "unit", "mean", "95 % interval"].map((name) => el("th", { scope: "col" }, name)))),
+        el("thead", {}, el("tr", {}, ...["metric", "mean", "95 % interval"].map((name) => el("th", { scope: "col" }, name)))),
         el("tbody", {}, ...scene.metrics.map(metricRow)),
       ),
       el("p", { class: "words" }, scene.strategy.summary),
@@ -136,7 +136,8 @@ function runColor(run: number, runs: number, theme: Theme, alone: string): strin
 function metricRow({ name, label, unit, mean, low, high }: Metric): HTMLElement {
   const text = estimate(mean, low, high);
   return el(
-    "tr", { "data-metric": name }, el("th", { scope: "row" }, label), el("td", {}, unit === "1" ? "" : unit),
+    "tr", { "data-metric": name },
+    el("th", { scope: "row" }, label, unit === "1" ? null : el("span", { class: "of" }, ` [${unit}]`)),
     el("td", { class: "mean" }, text.mean), el("td", { class: "interval" }, text.interval),
   );
 }

@@ -26,7 +26,7 @@ export interface Point {
 
 const MOST_LINKS = 150_000; // agents x k; more is a gray sheet, slowly drawn
 const LONGEST_GLIDE = 250; // [ms]
-const LONGEST_JUMP = 0.1; // of the area's longer side; what moves farther between two frames is not seen to glide
+const LONGEST_JUMP = 0.3; // of the area's longer side; what moves farther between two frames is not seen to glide
 const REACH = 8 / 3; // arena units that the fastest agent covers in the length of a trail; targets' are three times it
 const NO_PAIRS: Pairs = new Uint32Array(0);
 
@@ -98,7 +98,20 @@ export class Stage {
     this.stale = true;
     if (this.picked !== null && !(this.picked < frame.x.length && isAlive(frame, this.picked))) this.pick(null);
     else if (this.picked !== null) this.pick(this.picked);
-    this.describe(frame, scene);
+  }
+
+  /** Say in words what is shown; a few times a second is as fast as anybody reads. */
+  describe(playing: boolean): void {
+    const { frame, scene } = this;
+    if (!frame || !scene) return;
+    const there = frame.present.some((_, target) => isPresent(frame, target));
+    const state = there ? `${fixed(frame.engaged, 0)} on target` : "no target is there";
+    this.moment.textContent = `Step ${count(frame.step)} · ${time(frame.step * scene.time_step)} · ${state}`;
+    const gone = frame.x.length - this.livingAgents();
+    this.legend.showGone(gone);
+    if (playing) return; // a label that changes all the time is read out all the time
+    const words = `${count(frame.x.length - gone)} buoys, ${state}`;
+    this.canvas.setAttribute("aria-label", `Map of the swarm${this.letter && `, run ${this.letter}`}: ${words}`);
   }
 
   refresh(): void {
@@ -209,16 +222,6 @@ export class Stage {
     const margins = { left: compact ? 42 : 50, right: compact ? 8 : 12, top: 6, bottom: compact ? 36 : 40 };
     if (this.scene) this.camera.fit(this.scene.area, this.size, margins);
     this.stale = true;
-  }
-
-  private describe(frame: Frame, scene: Scene): void {
-    const there = frame.present.some((_, target) => isPresent(frame, target));
-    const state = there ? `${fixed(frame.engaged, 0)} on target` : "no target is there";
-    this.moment.textContent = `Step ${count(frame.step)} · ${time(frame.step * scene.time_step)} · ${state}`;
-    const gone = frame.x.length - this.livingAgents();
-    this.legend.showGone(gone);
-    const words = `${count(frame.x.length - gone)} buoys, ${state}`;
-    this.canvas.setAttribute("aria-label", `Map of the swarm${this.letter && `, run ${this.letter}`}: ${words}`);
   }
 
   private isNear(before: Frame | null, frame: Frame): boolean {

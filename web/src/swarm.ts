@@ -1,6 +1,7 @@
 // Controls that act on the running swarm: k, target speed, fleets, strategy, tools for the water, a fresh start.
 
 import { el } from "./dom";
+import { countFleets, fastestFleet } from "./fleets";
 import { count, short } from "./format";
 import type { Change, Hello, Parameter, Request, Scene } from "./protocol";
 import { slider, type Slider } from "./slider";
@@ -34,7 +35,7 @@ export class SwarmControls {
   private readonly parameters = el("div", { class: "parameters" });
   private readonly joins = el("select", { "aria-label": "Fleet that a new buoy is of" });
   private readonly toolHint = el("p", { class: "words", "aria-live": "polite" });
-  private readonly seed = el("input", { type: "number", id: "seed", min: 0, step: 1, inputmode: "numeric" });
+  private readonly seed = el("input", { type: "number", id: "seed", min: 0, max: Number.MAX_SAFE_INTEGER, step: 1, inputmode: "numeric" });
   private readonly restart = el("button", { type: "button", class: "wide" }, "Restart");
   private scenes: (Scene | null)[];
   private speedLimit = 0; // [m/s] of the slider
@@ -124,13 +125,13 @@ export class SwarmControls {
   }
 
   private showFast(scene: Scene, agents: number): void {
-    if (scene.fleets.length !== 2) return this.fast.refuse("needs two fleets");
-    const [a, b] = scene.fleets;
-    const fast = a.max_speed >= b.max_speed ? a : b;
-    this.fast.show(fast.count, { min: 1, max: agents - 1, step: 1 }, (value) =>
+    if (countFleets() !== 2) return this.fast.refuse("needs two fleets");
+    const { name, max_speed } = fastestFleet();
+    const fast = scene.fleets.find((fleet) => fleet.name === name)?.count ?? 0;
+    this.fast.show(fast, { min: 0, max: agents, step: 1 }, (value) =>
       `${count(value)} of ${count(agents)} (${Math.round((100 * value) / agents)} %)`,
     );
-    this.fast.input.title = `${fast.name}, ${short(fast.max_speed)} m/s`;
+    this.fast.input.title = `${name}, ${short(max_speed)} m/s`;
   }
 
   private showStrategy(scene: Scene): void {
@@ -212,6 +213,8 @@ export class SwarmControls {
 
   private startAgain(): void {
     const seed = this.seed.value.trim();
-    this.send(/^\d+$/.test(seed) ? { do: "restart", seed: Number(seed) } : { do: "restart" });
+    const same = seed === "" || seed === String(this.scenes[this.runs[0]]?.seed);
+    if (!same && !this.seed.reportValidity()) return;
+    this.send(same ? { do: "restart" } : { do: "restart", seed: Number(seed) });
   }
 }

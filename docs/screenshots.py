@@ -1,0 +1,105 @@
+"""Take the screenshots of the viewer: python docs/screenshots.py FOLDER (needs playwright and a chromium)."""
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from shoal import load, simulate
+from shoal.scenario.load import read_table
+from shoal.view.replay import replay_page
+from shoal.view.server import watching
+from shoal.view.session import Session
+
+CHROMIUM = [Path(path) for path in ("/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome")]
+DESK = {"width": 1280, "height": 720}
+PHONE = {"width": 390, "height": 844}
+STEPS = 2000
+
+
+def main(folder: Path) -> None:
+    """Write every screenshot into a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with sync_playwright() as engine:
+        own = Path(engine.chromium.executable_path)
+        chromium = next((path for path in [own, *CHROMIUM] if path.exists()), None)
+        if chromium is None:
+            sys.exit("no chromium is installed: run `playwright install chromium`")
+        browser = engine.chromium.launch(executable_path=str(chromium), args=["--no-sandbox", "--disable-gpu"])
+        shoot_live(browser, folder)
+        shoot_comparison(browser, folder)
+        shoot_replay(browser, folder)
+        browser.close()
+
+
+def shoot_live(browser: Browser, folder: Path) -> None:
+    """A running swarm: light, dark with halos, the keys, and on a phone."""
+    with watching(Session([read_table("oceans2020")], speed=20.0)) as address:
+        shoot(browser, address, folder / "live.png", run_for_a_while)
+        shoot(browser, address, folder / "live-dark.png", lambda page: page.keyboard.press("h"), color_scheme="dark")
+        shoot(browser, address, folder / "keys.png", lambda page: page.keyboard.press("?"))
+        shoot(browser, address, folder / "phone.png", viewport=PHONE, has_touch=True)
+        shoot(browser, address, folder / "phone-dark.png", viewport=PHONE, has_touch=True, color_scheme="dark")
+
+
+def shoot_comparison(browser: Browser, folder: Path) -> None:
+    """Two runs on one seed, that differ in k."""
+    few = read_table("oceans2020")
+    few["network"]["neighbors"] = 5
+    with watching(Session([read_table("oceans2020"), few], speed=20.0)) as address:
+        shoot(browser, address, folder / "against.png", run_for_a_while)
+        shoot(browser, address, folder / "against-dark.png", color_scheme="dark")
+
+
+def shoot_replay(browser: Browser, folder: Path) -> None:
+    """A record as a page."""
+    scenario = load("oceans2020")
+    record = simulate(scenario.model_copy(update={"steps": STEPS}), every=2)
+    with TemporaryDirectory() as scratch:
+        file = Path(scratch, "replay.html")
+        file.write_text(replay_page(record), encoding="utf-8")
+        seek = f"() => shoal.step() === {STEPS - 2}"
+
+        def to_the_end(page: Page) -> None:
+            page.keyboard.press("End")
+            page.wait_for_function(seek)
+
+        shoot(browser, file.as_uri(), folder / "replay.png", to_the_end)
+
+
+def shoot(
+    browser: Browser, address: str, file: Path, prepare: Callable[[Page], Any] = lambda page: None, **options: Any
+) -> None:
+    """Open an address, prepare the page and take its picture."""
+    with opened(browser, address, **{"viewport": DESK, "device_scale_factor": 2, **options}) as page:
+        prepare(page)
+        page.wait_for_timeout(500)  # numbers and charts follow ten times a second
+        page.screenshot(path=file)
+
+
+def run_for_a_while(page: Page) -> None:
+    """Let a live run go on until its numbers mean something, then pause it."""
+    page.wait_for_function(f"() => shoal.step() >= {STEPS}")
+    page.keyboard.press(" ")
+    page.wait_for_function("() => !shoal.playing()")
+
+
+@contextmanager
+def opened(browser: Browser, address: str, **options: Any) -> Iterator[Page]:
+    """A page that shows its first frame, in a browser of its own."""
+    context = browser.new_context(**options)
+    page = context.new_page()
+    page.goto(address)
+    page.wait_for_function("() => window.shoal && shoal.step() >= 0")
+    yield page
+    context.close()
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    main(Path(sys.argv[1]))
