@@ -65,7 +65,7 @@ def bars_figure(panels: Sequence[Panel], x_label: str, yardstick: str = "lattice
             axes = figure.add_axes((box[0] / page[0], box[1] / page[1], box[2] / page[0], box[3] / page[1]))
             _draw_bars(axes, panel, yardstick, named=column == 0)
             axes.set_xlim(*limits)
-            axes.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
+            axes.xaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
             axes.set_xlabel(x_label)
         told = f"whiskers: 95 % interval over runs; dashed: {yardstick}"
         if any(bar.informed for bar in panels[0].bars):
