@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
-.PHONY: demo test test-fast lint bench figures clean help
+.PHONY: demo test test-fast lint bench arena figures clean help
 
 help:
 	@echo "make demo      run the paper's scenario: table, figure and record in demo-output/"
@@ -12,6 +12,7 @@ help:
 	@echo "make test-fast without the slow ones"
 	@echo "make lint      ruff, mypy, import-linter"
 	@echo "make bench     speed of the engine beside its anchor and plain NumPy"
+	@echo "make arena     the leaderboard of docs/reference/arena.md anew, about ten minutes"
 	@echo "make clean     remove the environment and everything made"
 
 # The environment is remade when what it holds changes.
@@ -41,5 +42,8 @@ lint: $(VENV)/.installed
 bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/bench_engine.py
 
+arena: $(VENV)/.installed
+	$(BIN)/shoal compare --suite arena --out arena-output --markdown docs/reference/arena.md
+
 clean:
-	rm -rf $(VENV) demo-output .pytest_cache .mypy_cache .ruff_cache .import_linter_cache
+	rm -rf $(VENV) demo-output arena-output .pytest_cache .mypy_cache .ruff_cache .import_linter_cache

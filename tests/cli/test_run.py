@@ -141,7 +141,9 @@ class TestListings:
         assert "fine" in shoal(capsys, "check", "mine.toml")[1]
         assert "fleets" in json.loads(shoal(capsys, "schema")[1])["properties"]
 
-    @pytest.mark.parametrize("command", ["run", "show", "sweep", "results", "plot", "check", "scenario", "strategies"])
+    @pytest.mark.parametrize(
+        "command", ["run", "show", "sweep", "compare", "results", "plot", "check", "scenario", "strategies"]
+    )
     def test_every_command_has_help(self, capsys, command):
         code, out, _ = shoal(capsys, command, "--help")
         assert code == 0

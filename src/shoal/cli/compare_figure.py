@@ -30,7 +30,7 @@ def comparison_figure(comparison: Comparison, metric: str) -> "Figure":
 def leaderboard_figure(board: Leaderboard) -> "Figure":
     """The score, then the share under each condition, all in the order of the score."""
     order = [each.strategy for each in board.overall.standings]
-    return bars_figure(_panels([board.overall, *board.shares.conditions], order), "", LATTICE)
+    return bars_figure(_panels([board.overall, *board.shares.conditions], order), "share", LATTICE)
 
 
 def _panels(conditions: Sequence[Condition], order: Sequence[str]) -> list[Panel]:

@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Callable, Sequence
-from typing import Any, Literal
+from typing import Any
 
 from rich.console import Console
 from rich.table import Table
@@ -50,7 +50,12 @@ def print_comparison(comparison: Comparison, metric: str, direction: int, about:
         if direction:
             ranked = sum(each.rank is not None for each in condition.standings)
             console.print(f"standing still ({LATTICE}) ranks {rank_text(condition.of(LATTICE))} of {ranked}")
-    _print_notes(console, [comparison])
+    family = (
+        f"all {comparison.tests} comparisons"
+        if len(comparison.conditions) == 1
+        else (f"all {comparison.tests} comparisons of the {len(comparison.conditions)} tables")
+    )
+    _print_notes(console, family, comparison.conditions[0])
 
 
 def print_leaderboard(board: Leaderboard) -> None:
@@ -69,36 +74,50 @@ def print_leaderboard(board: Leaderboard) -> None:
     ]
     console.print(_table(board.overall, columns))
     console.print("\nshare under each condition; + better, − worse than standing still; no sign: no difference shown\n")
-    columns = [(each.name, _share_under(each)) for each in board.shares.conditions]
-    console.print(_table(board.overall, columns, justify="left"))
-    _print_notes(console, [board.score, board.shares])
+    console.print(_shares(board))
+    family = f"the {board.score.tests} comparisons of scores together, and for the {board.shares.tests} of shares"
+    _print_notes(console, family, board.overall)
 
 
-def _share_under(condition: Condition) -> Callable[[Standing], str]:
-    return lambda each: share_text(condition.of(each.strategy))
-
-
-def _table(condition: Condition, columns: Sequence[_Column], justify: Literal["left", "right"] = "right") -> Table:
+def _table(condition: Condition, columns: Sequence[_Column]) -> Table:
     table = Table(box=None, padding=(0, 2, 0, 0))
     table.add_column("", justify="right")
     table.add_column("strategy", no_wrap=True)
     for title, _ in columns:
-        table.add_column(title, justify="left" if title == "verdict" else justify, no_wrap=title != "verdict")
+        table.add_column(title, justify="left" if title == "verdict" else "right", no_wrap=title != "verdict")
+    _fill(table, condition, [text for _, text in columns])
+    return table
+
+
+def _shares(board: Leaderboard) -> Table:
+    """In the order of the score; narrow enough for 80 columns."""
+    table = Table(box=None, padding=(0, 1, 0, 0))
+    table.add_column("", justify="right")
+    table.add_column("strategy", no_wrap=True)
+    for each in board.shares.conditions:
+        table.add_column(each.name, min_width=6)
+    _fill(table, board.overall, [_share_under(each) for each in board.shares.conditions])
+    return table
+
+
+def _share_under(condition: Condition) -> Callable[[Standing], str]:
+    return lambda each: share_text(condition.of(each.strategy), decimals=2)
+
+
+def _fill(table: Table, condition: Condition, texts: Sequence[Callable[[Standing], str]]) -> None:
+    """A row per standing; those that know the target below a line that says so."""
     below = False
     for each in condition.standings:
         if each.informed and not below:
             table.add_row("", Text("know the target:", style="dim"))
             below = True
         look = "bold" if each.strategy == LATTICE else "dim" if each.informed else ""
-        table.add_row(rank_text(each), each.strategy, *(text(each) for _, text in columns), style=look)
-    return table
+        table.add_row(rank_text(each), each.strategy, *(text(each) for text in texts), style=look)
 
 
-def _print_notes(console: Console, comparisons: Sequence[Comparison]) -> None:
-    tests = " and ".join(str(each.tests) for each in comparisons)
-    told = family_text(comparisons[0]).replace(f"all {comparisons[0].tests} ", f"all {tests} ")
-    informed = any(each.informed for each in comparisons[0].conditions[0].standings)
-    console.print(f"\n{told}{f' {REFERENCES}' if informed else ''}", style="dim")
+def _print_notes(console: Console, family: str, condition: Condition) -> None:
+    references = f" {REFERENCES}" if any(each.informed for each in condition.standings) else ""
+    console.print(f"\n{family_text(family)}{references}", style="dim")
 
 
 def _console() -> Console:

@@ -2,7 +2,7 @@
 
 import math
 
-from shoal.experiments.comparison import Comparison, Standing
+from shoal.experiments.comparison import Standing
 from shoal.experiments.paired import SIGNIFICANT
 
 REFERENCES = (
@@ -47,18 +47,18 @@ def p_text(p: float | None) -> str:
     return "< 0.001" if p < 0.001 else f"{p:.3f}"
 
 
-def share_text(each: Standing) -> str:
+def share_text(each: Standing, decimals: int = 3) -> str:
     """Mean, and the sign of a difference that was shown."""
     sign = {"better": " +", "worse": " −"}.get(each.verdict, "")
-    return "none" if math.isnan(each.value.mean) else f"{each.value.mean:.3f}{sign}"
+    return "none" if math.isnan(each.value.mean) else f"{each.value.mean:.{decimals}f}{sign}"
 
 
-def family_text(comparison: Comparison) -> str:
-    """What intervals, adjusted p and verdicts mean here."""
+def family_text(family: str) -> str:
+    """What intervals, adjusted p and verdicts mean, for a family such as "all 6 comparisons of the table"."""
     return (
         "Differences are over paired runs (same seeds); each 95 % interval is for that difference alone (Student's t). "
-        f"Adjusted p is Holm's, for all {comparison.tests} comparisons of the table together: verdicts need it below "
-        f"{SIGNIFICANT:g}, so that the chance of any false one among them is at most {100 * SIGNIFICANT:g} %."
+        f"Adjusted p is Holm's, for {family} together: verdicts need it below {SIGNIFICANT:g}, so that the chance of "
+        f"any false one among them is at most {100 * SIGNIFICANT:g} %."
     )
 
 

@@ -43,7 +43,11 @@ def contenders(named: Sequence[str]) -> list[Contender]:
             both = f"{found[known.name].choice} and {choice}"
             raise ScenarioError(both, f"are both called {known.name!r}", "give one another name")
     if len(found) == 1:
-        raise ScenarioError("STRATEGIES", f"only the {LATTICE} is there to compare", "name one more strategy, or two")
+        raise ScenarioError(
+            "STRATEGIES",
+            f"only the {LATTICE} is there to compare",
+            "name a strategy or more, such as knn-pso charged-pso",
+        )
     return list(found.values())
 
 

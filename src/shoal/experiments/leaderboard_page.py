@@ -66,11 +66,11 @@ def page_part(board: Leaderboard, named: Sequence[str] = ()) -> str:
             "columns to its right. There **+** is better and **−** worse than standing still; without a sign no "
             "difference is shown.",
             _overview(board),
-            f"{family_text(board.score)} {REFERENCES}",
+            f"{family_text(f'all {board.score.tests} comparisons of scores')} {REFERENCES}",
             "## When standing still wins",
             standing_still(board),
             "## Condition by condition",
-            family_text(board.shares).replace("of the table", "of the tables below"),
+            family_text(f"all {board.shares.tests} comparisons of the tables below"),
             *(_section(told, found) for told, found in conditions),
         ]
     )

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _ROW = 0.2  # [inch] height of a bar and the space around it
 _LETTER = 0.066  # [inch] width of a letter
 _TITLE, _BELOW, _FOOT = 0.36, 0.42, 0.2  # [inch] above a panel, below it, and the line at the foot of the page
-_PANELS = 4  # in a row
+_PANELS, _GAP = 4, 0.25  # in a row; between them [inch]
 _LINES: tuple[Any, ...] = ("-", "--", ":", "-.")
 _CURVES = tuple(color for color in FLEET_COLORS if color != "#F0E442")  # yellow is too pale for a line
 _YARDSTICK = TARGET  # standing still is what every strategy has to beat: one color of its own
@@ -52,17 +52,20 @@ def bars_figure(panels: Sequence[Panel], x_label: str, yardstick: str = "lattice
     wide = 4.4 if columns == 1 else 2.0
     above = _TITLE if any(panel.title for panel in panels) else 0.12
     tall = _ROW * (len(names) + 0.8)
-    page = (left + columns * (wide + 0.2) + 0.1, rows * (above + tall + _BELOW) + _FOOT)
+    page = (left + columns * (wide + _GAP) + 0.05, rows * (above + tall + _BELOW) + _FOOT)
     limits = _limits([bar for panel in panels for bar in panel.bars])
     with style():
+        from matplotlib.ticker import MaxNLocator
+
         figure = new_figure(*page)
         for number, panel in enumerate(panels):
             row, column = divmod(number, columns)
             bottom = page[1] - (row + 1) * (above + tall + _BELOW) + _BELOW
-            box = (left + column * (wide + 0.2), bottom, wide, tall)
+            box = (left + column * (wide + _GAP), bottom, wide, tall)
             axes = figure.add_axes((box[0] / page[0], box[1] / page[1], box[2] / page[0], box[3] / page[1]))
             _draw_bars(axes, panel, yardstick, named=column == 0)
             axes.set_xlim(*limits)
+            axes.xaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
             axes.set_xlabel(x_label)
         told = f"whiskers: 95 % interval over runs; dashed: {yardstick}"
         if any(bar.informed for bar in panels[0].bars):
@@ -128,11 +131,9 @@ def _draw_bars(axes: "Axes", panel: Panel, yardstick: str, *, named: bool) -> No
 
 
 def _limits(bars: Sequence[Bar]) -> tuple[float, float]:
-    """From 0, or below it, to a little beyond the longest whisker."""
-    ends = [end for bar in bars for end in (bar.mean, bar.low, bar.high) if end is not None and np.isfinite(end)]
-    low, high = min([0.0, *ends]), max([0.0, *ends])
-    room = 0.03 * (high - low) or 1.0
-    return low - room * (low < 0.0), high + room
+    """From 0 to a little beyond the longest whisker: no metric is below 0, whatever Student's t says."""
+    ends = [end for bar in bars for end in (bar.mean, bar.high) if end is not None and np.isfinite(end)]
+    return 0.0, 1.03 * max([0.0, *ends]) or 1.0
 
 
 def _divide(axes: "Axes", panel: Panel) -> None:
