@@ -8,7 +8,7 @@ from shoal.core.units import Choice
 from shoal.strategies import CATALOGUE
 
 STRATEGIES = sorted(name for name, known in CATALOGUE.items() if known.builtin)
-TEAMS = [["encircle", "knn-pso"]]
+TEAMS = [["encircle", "knn-pso"], ["levy-walk", "global-pso", "lattice-intercept"]]
 KINDS = ["still", "waypoint", "line", "walk", "levy", "evasive", "drift"]
 STEPS = 50
 
