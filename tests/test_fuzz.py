@@ -1,6 +1,5 @@
 """Any scenario that is accepted runs; any other ends in one clear error."""
 
-import json
 import tomllib
 
 import numpy as np

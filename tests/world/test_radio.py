@@ -47,7 +47,7 @@ def brute(x, y, neighbors, reach, alive):
     for i in np.flatnonzero(alive):
         square = (x[i] - x) ** 2 + (y[i] - y) ** 2
         near = [j for j in range(n) if j != i and alive[j] and square[j] <= reach**2]
-        linked[sorted(near, key=lambda j: (square[j], j))[: neighbors[i]], i] = True  # noqa: B023
+        linked[sorted(near, key=lambda j: (square[j], j))[: neighbors[i]], i] = True
     return linked
 
 

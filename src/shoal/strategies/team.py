@@ -11,7 +11,6 @@ import numpy as np
 from shoal.strategies import contract
 from shoal.strategies.contract import strategy
 
-
 MOST = 8  # strategies in one swarm
 
 
