@@ -8,7 +8,7 @@ from shoal.core.units import Choice
 from shoal.strategies import CATALOGUE
 
 STRATEGIES = sorted(name for name, known in CATALOGUE.items() if known.builtin)
-TEAMS = [["encircle", "knn-pso"]]
+TEAMS = [["encircle", "knn-pso"], ["levy-walk", "global-pso", "lattice-intercept"]]
 KINDS = ["still", "waypoint", "line", "walk", "levy", "evasive", "drift"]
 STEPS = 50
 
@@ -238,10 +238,11 @@ def _not_finite(rng, table):
 
 
 def _huge(rng, table):
-    free = ("detection_probability", "false_alarm_probability", "loss")
-    wanted = lambda path, value: (
-        _is_number(value) and "strategy" not in path and path[-1] not in free and path[-1] != "seed"
-    )
+    free = ("detection_probability", "false_alarm_probability", "loss", "seed")
+
+    def wanted(path, value):
+        return _is_number(value) and "strategy" not in path and path[-1] not in free
+
     return _replace(rng, table, wanted, [1e13, -1e13, 1e300, 10**13, 10**30, 10**400, "1e20 km"])
 
 

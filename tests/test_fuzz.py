@@ -27,7 +27,13 @@ def chance(*numbers):
 class TestValid:
     """2,000 scenarios over every field, each for 50 steps."""
 
-    @pytest.mark.parametrize("crew", range(len(CREWS)), ids=lambda crew: "+".join(CREWS[crew]))
+    @pytest.mark.parametrize(
+        "crew",
+        [  # each compiles the engine for its strategies
+            pytest.param(crew, marks=() if names == ["knn-pso"] else pytest.mark.slow, id="+".join(names))
+            for crew, names in enumerate(CREWS)
+        ],
+    )
     def test_runs_and_adds_up(self, crew):
         for case in range(VALID):
             table = valid_table(chance(crew, case), CREWS[crew])

@@ -45,6 +45,30 @@ def test_scouts_walk_as_they_would_alone_and_the_others_stand():
     np.testing.assert_array_equal(mixed.swarm.x[15:50], standing.swarm.x[15:50])
 
 
+def test_three_and_more_walk_as_each_would_alone():
+    alone = ("random-walk", "lattice", "levy-walk")
+    makes = [{"name": name, "count": 10, "max_speed": 1.0} for name in alone]
+
+    def together(*names):
+        fleets = [{**make, "strategy": name} for make, name in zip(makes, names, strict=True)]
+        return after(scenario_from({**read_table("oceans2020"), "fleets": fleets}), 100).swarm.x[:30]
+
+    mixed = together(*alone)
+    for number, name in enumerate(alone):
+        mine = slice(10 * number, 10 * number + 10)
+        assert mixed[mine].tobytes() == together(name, name, name)[mine].tobytes(), name
+
+
+def test_more_than_eight_in_turn_are_refused():
+    makes = [
+        {"name": str(number), "count": 1, "max_speed": 1.0, "strategy": ("lattice", "knn-pso")[number % 2]}
+        for number in range(9)
+    ]
+    chosen = scenario_from({**read_table("oceans2020"), "fleets": makes, "network": {"neighbors": 1}})
+    with pytest.raises(ScenarioError, match="more than 7 times"):
+        crew_of(chosen)
+
+
 def test_each_follows_whom_its_own_strategy_follows_and_remembers_its_own():
     mixed = after(team("encircle", "knn-pso"))
     memory = mixed.minds.memory

@@ -3,10 +3,11 @@
 from dataclasses import dataclass
 from typing import Any
 
+from shoal.core.errors import ScenarioError
 from shoal.scenario.schema import Scenario
 from shoal.scenario.strategy_choice import StrategyChoice
 from shoal.strategies import Strategy
-from shoal.strategies.team import Team
+from shoal.strategies.team import MOST, depth_of, team
 
 
 @dataclass(frozen=True)
@@ -63,5 +64,11 @@ def _team(choices: list[StrategyChoice], counts: list[int]) -> Any:
     for fleet in range(len(choices) - 2, -1, -1):
         until -= counts[fleet + 1]
         if not all(choice == choices[fleet] for choice in choices[fleet + 1 :]):
-            params = Team(choices[fleet].kernel_params(), params, until)
+            if depth_of(params) == MOST:
+                raise ScenarioError(
+                    "fleets.strategy",
+                    f"changes more than {MOST - 1} times from fleet to fleet",
+                    "use fewer strategies, or put fleets that share one next to each other at the end",
+                )
+            params = team(choices[fleet].kernel_params(), params, until)
     return params
