@@ -25,7 +25,7 @@ def measure_links(tally, batch, world, swarm, scratch, first, number):
     links = scratch.links
     reports = 0
     for i in range(min(links.heard.size, world.agents - first)):
-        reports += links.heard[i]
+        reports += links.heard[i] if swarm.alive[first + i] > 0.0 else 0
     tally.heard[batch] += reports
     if not world.sequential:
         tally_graph(tally, batch, world, links, swarm.alive, scratch.leader, number)

@@ -20,7 +20,7 @@ from shoal.core.errors import MissingExtraError, RecordError
 from shoal.metrics.heading_bearing import CENTERS
 from shoal.metrics.summary import METRICS, evaluate, fleet_fluctuation, fleet_stationary, phi_histogram
 from shoal.record.trajectory import Trajectory
-from shoal.strategies import CATALOGUE
+from shoal.scenario.plugins import find_strategy
 
 if TYPE_CHECKING:
     import xarray
@@ -259,8 +259,12 @@ def _instances(dimension: str, runs: npt.NDArray[Any], who: str, count: int) -> 
 
 def _memory_units(record: "Record") -> dict[str, str]:
     """Unit of each memory field; none are known where a user's strategy has not been loaded in this process."""
-    known = CATALOGUE.get(record.scenario["strategy"]["name"])
-    return known.memory if known else {}
+    scenario = record.scenario
+    units: dict[str, str] = {}
+    for choice in (scenario["strategy"], *(fleet.get("strategy") or {} for fleet in scenario["fleets"])):
+        known = find_strategy(choice["name"], choice.get("source")) if choice else None
+        units |= known.memory if known else {}
+    return units
 
 
 # --- the place on Earth ---

@@ -1,8 +1,9 @@
 """Put a scenario on a recorded track: the arena around it, the lengths with the arena, the speeds as they are."""
 
-from typing import Any, get_type_hints
+from typing import Any, get_args, get_type_hints
 
 import numpy as np
+from pydantic.fields import FieldInfo
 
 from shoal.core.units import Unit
 from shoal.scenario.load import scenario_from
@@ -55,14 +56,23 @@ def scale_lengths(scenario: Scenario, factor: float) -> dict[str, Any]:
     table: dict[str, Any] = scenario.model_dump(mode="json")
     for model, part in (
         (scenario.area, table["area"]),
+        (scenario.network, table["network"]),
         *zip(scenario.fleets, table["fleets"], strict=True),
         *zip(scenario.targets, table["targets"], strict=True),
     ):
         for name, field in type(model).model_fields.items():
-            if Unit("m") in field.metadata:
+            if _is_length(field) and part[name] is not None:
                 part[name] *= factor
-    hints = get_type_hints(scenario.strategy.owner.params, include_extras=True)
-    for name in scenario.strategy.params:
-        if Unit("m") in getattr(hints[name], "__metadata__", ()):
-            table["strategy"][name] *= factor
+    own = [(fleet.strategy, part["strategy"]) for fleet, part in zip(scenario.fleets, table["fleets"], strict=True)]
+    for choice, part in ((scenario.strategy, table["strategy"]), *own):
+        hints = get_type_hints(choice.owner.params, include_extras=True) if choice else {}
+        for name in choice.params if choice else ():
+            if Unit("m") in getattr(hints[name], "__metadata__", ()):
+                part[name] *= factor
     return table
+
+
+def _is_length(field: FieldInfo) -> bool:
+    """Whether a field is in m, or may be: Meters, or Meters | None."""
+    choices = (getattr(each, "__metadata__", ()) for each in get_args(field.annotation))
+    return any(Unit("m") in marks for marks in (field.metadata, *choices))
