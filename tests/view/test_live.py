@@ -1,6 +1,7 @@
 """A run that goes on while its scenario changes."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,10 +11,13 @@ from scenarios import changed
 from shoal.core.errors import ScenarioError
 from shoal.metrics.summary import evaluate
 from shoal.runs import simulate
+from shoal.scenario.edit import apply
 from shoal.scenario.load import read_table, scenario_from
 from shoal.simulation import Simulation, facts_of
 from shoal.view.glance import glance
 from shoal.view.live import LiveRun
+
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "my_strategy.py"
 
 
 def live(changes=None, steps=0):
@@ -204,6 +208,22 @@ class TestChange:
                 run.advance(chunk)
             results.append(bits(run.simulation))
         assert results[0] == results[1] == results[2]
+
+
+class TestAStrategyOfTheUsers:
+    @pytest.fixture
+    def run(self):
+        return LiveRun(apply(read_table("oceans2020"), {"strategy": str(EXAMPLE)}))
+
+    def test_the_page_is_told_what_it_is_and_not_where_it_lies(self, run):
+        assert '"name":"wander"' in run.message
+        assert '"turn_chance":0.02' in run.message
+        assert "my_strategy" not in run.message
+
+    def test_it_comes_back_by_its_name_after_another(self, run):
+        run.change({"strategy": "knn-pso"})
+        run.change({"strategy": "wander", "strategy.turn_chance": 0.5})
+        assert run.simulation.scenario.strategy.params["turn_chance"] == 0.5
 
 
 class TestKillAndAdd:

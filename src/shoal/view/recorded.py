@@ -12,7 +12,7 @@ from shoal.metrics.tally import new_tally
 from shoal.metrics.velocity_fluctuation import tally_velocity_fluctuation
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
-from shoal.strategies import CATALOGUE
+from shoal.scenario.plugins import find_strategy
 from shoal.view.frame import RECENT, Gauges, pack
 from shoal.view.scene import REPULSION, scene_of
 from shoal.world.targets import TARGET
@@ -158,7 +158,8 @@ def _degrees(scenario: dict[str, Any], counts: tuple[int, ...]) -> npt.NDArray[n
     everybody = sum(counts) - 1
     degrees = []
     for fleet in scenario["fleets"]:
-        strategy = CATALOGUE.get((fleet.get("strategy") or scenario["strategy"])["name"])
+        chosen = fleet.get("strategy") or scenario["strategy"]
+        strategy = find_strategy(chosen["name"], chosen.get("source"))
         degree = fleet.get("neighbors") or scenario["network"]["neighbors"]
         degrees.append(everybody if degree == "all" or (strategy and strategy.hears_all) else degree)
     return np.repeat(degrees, counts)

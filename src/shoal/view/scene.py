@@ -6,8 +6,10 @@ from collections.abc import Iterable
 from typing import Any
 
 from shoal.metrics.summary import Facts
+from shoal.scenario.plugins import find_strategy
 from shoal.scenario.strategy_choice import params_model
-from shoal.strategies import CATALOGUE, Strategy
+from shoal.strategies import Strategy
+from shoal.strategies.contract import RESERVED
 
 REPULSION = "repulsion"  # the memory field that the page shows as a_R
 _EXACT = 2**53  # beyond, JavaScript's numbers have gaps
@@ -24,8 +26,8 @@ def scene_of(
     epoch, since : number of this scene, and the step that it begins with
     """
     area, network = scenario["area"], scenario["network"]
-    strategy = {name: value for name, value in scenario["strategy"].items() if name not in ("file", "source")}
-    known = CATALOGUE.get(strategy.pop("name"))
+    strategy = scenario["strategy"]
+    known = find_strategy(strategy["name"], strategy.get("source"))
     seed = scenario["seed"]
     return {
         "epoch": epoch,
@@ -57,8 +59,8 @@ def scene_of(
         "neighbors": network["neighbors"],
         "range": network.get("range"),
         "strategy": {
-            "name": scenario["strategy"]["name"],
-            "params": strategy,
+            "name": strategy["name"],
+            "params": {name: value for name, value in strategy.items() if name not in RESERVED},
             "summary": known.summary if known else "",
         },
         "has_repulsion": REPULSION in memory,
