@@ -40,6 +40,12 @@ def test_numbers_that_are_not_finite_end_the_run(simulation):
         simulation.advance(1)
 
 
+def test_numbers_that_are_not_finite_do_not_hang_the_run(simulation):
+    simulation.swarm.x[3] = np.nan
+    with pytest.raises(StrategyError, match="no finite number"):
+        simulation.advance(20)
+
+
 def test_a_file_with_a_byte_order_mark_is_read(tmp_path):
     file = tmp_path / "mine.toml"
     file.write_text(shoal.to_toml(shoal.load("oceans2020")), encoding="utf-8-sig")

@@ -13,6 +13,7 @@ from numba.core.errors import NumbaError
 
 from shoal.core.agents import NEVER, REPORT_BYTES, Minds, Swarm, as_records, new_swarm
 from shoal.core.errors import RecordError, ScenarioError, StrategyError
+from shoal.core.files import whole_file
 from shoal.core.kernel import cache_folder, uncached
 from shoal.core.phase import put
 from shoal.engine.phases import PHASES, Addresses
@@ -146,17 +147,8 @@ class Simulation:
 
     def save(self, file: str | Path) -> None:
         """Write the state to an .npz file, whole or not at all."""
-        path = Path(file)
-        partial = path.with_name(path.name + ".partial")
-        try:
-            with partial.open("wb") as stream:
-                np.savez(stream, **self.state())
-            partial.replace(path)
-        except OSError as error:
-            partial.unlink(missing_ok=True)
-            raise RecordError(
-                str(path), f"cannot be written: {error.strerror or error}", "name a writable file"
-            ) from error
+        with whole_file(file) as partial, partial.open("wb") as stream:
+            np.savez(stream, **self.state())
 
     def restore(self, file: str | Path) -> None:
         """Continue from a saved state of the same scenario, seed and run.

@@ -51,7 +51,9 @@ class TestStations:
 
     def test_without_a_target_it_moves_as_the_lattice(self):
         nothing = {"targets": [{"kind": "still", "x": 1e6, "y": 0.0, "radius": 1.0}], "steps": 400}
-        ours, lattice = (Simulation(scenario("oceans2020", {**nothing, "strategy": s})) for s in ("encircle", "lattice"))
+        ours, lattice = (
+            Simulation(scenario("oceans2020", {**nothing, "strategy": s})) for s in ("encircle", "lattice")
+        )
         ours.advance(400)
         lattice.advance(400)
         assert places(ours) == pytest.approx(places(lattice), abs=1e-9)

@@ -11,7 +11,7 @@ from frames import decode_all
 from scenarios import scenario
 from shoal.core.errors import RecordError, ScenarioError
 from shoal.runs import simulate
-from shoal.view.replay import choose_frames, replay_page, save_page
+from shoal.view.replay import choose_frames, replay_page
 
 
 @pytest.fixture(scope="module")
@@ -77,22 +77,3 @@ class TestChooseFrames:
         steps = np.concatenate([np.arange(0, 10_000, 100), np.arange(10_000, 10_300)])
         assert list(steps[choose_frames(steps, 2000, "end")]) == list(range(10_000, 10_300))
         assert list(steps[choose_frames(steps, 3, "end")]) == [10_297, 10_298, 10_299]
-
-
-class TestSavePage:
-    def test_it_replaces_a_file_of_its_name(self, tmp_path):
-        file = tmp_path / "run.html"
-        file.write_text("old")
-        save_page("new", file)
-        assert file.read_text() == "new"
-        assert list(tmp_path.iterdir()) == [file]
-
-    def test_a_folder_that_is_not_there_is_one_sentence(self, tmp_path):
-        with pytest.raises(RecordError, match="cannot be written"):
-            save_page("new", tmp_path / "nowhere" / "run.html")
-
-    def test_a_name_of_a_folder_leaves_nothing_behind(self, tmp_path):
-        (tmp_path / "run.html").mkdir()
-        with pytest.raises(RecordError, match="cannot be written"):
-            save_page("new", tmp_path / "run.html")
-        assert [each.name for each in tmp_path.iterdir()] == ["run.html"]

@@ -30,10 +30,11 @@ def replay(
     """
     load_compiler()
     from shoal.core.errors import ScenarioError
+    from shoal.core.files import write_whole
     from shoal.record.files import open_record
     from shoal.runs import simulate
     from shoal.scenario.load import load
-    from shoal.view.replay import replay_page, save_page
+    from shoal.view.replay import replay_page
 
     if frames < 1:
         raise ScenarioError("--frames", f"is {frames}", "ask for 1 or more")
@@ -44,5 +45,5 @@ def replay(
         every = max(1, -(-scenario.steps // frames)) if part == "all" else None
         with progress_bar(f"{scenario.name}, {scenario.steps:,} steps") as progress:
             record = simulate(scenario, every=every, progress=progress)
-    save_page(replay_page(record, frames=frames, part=part), out)
+    write_whole(out, replay_page(record, frames=frames, part=part).encode())
     note(f"page: {out} ({out.stat().st_size / 1e6:.1f} MB)")

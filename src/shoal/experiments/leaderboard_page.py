@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from shoal.core.errors import RecordError
+from shoal.core.files import write_whole
 from shoal.experiments.comparison import Condition
 from shoal.experiments.comparison_words import (
     REFERENCES,
@@ -18,7 +19,6 @@ from shoal.experiments.comparison_words import (
 )
 from shoal.experiments.contenders import LATTICE
 from shoal.experiments.leaderboard import Leaderboard
-from shoal.experiments.results import write_whole
 from shoal.experiments.suite import SuiteCondition, read_suite
 from shoal.version import RESULTS_VERSION, VERSION
 

@@ -3,12 +3,12 @@
 import csv
 import io
 import json
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from shoal.core.errors import MissingExtraError, RecordError, ScenarioError
+from shoal.core.errors import MissingExtraError, ScenarioError
+from shoal.core.files import write_whole
 from shoal.experiments.replicate import LIST_COLUMNS, Row
 from shoal.experiments.store import Store
 from shoal.metrics.summary import METRICS
@@ -121,24 +121,6 @@ def write_parquet(rows: Sequence[Row], file: Path) -> None:
     stream = io.BytesIO()
     pq.write_table(pa.Table.from_pylist(list(rows)), stream)
     write_whole(file, stream.getvalue())
-
-
-def write_whole(file: Path, content: bytes) -> None:
-    """Write a file that is either complete or not there.
-
-    Raises
-    ------
-    RecordError : it cannot be written
-    """
-    partial = file.with_name(f"{file.name}.{os.getpid()}.partial")
-    try:
-        partial.write_bytes(content)
-        partial.replace(file)
-    except OSError as error:
-        partial.unlink(missing_ok=True)
-        raise RecordError(
-            str(file), f"cannot be written: {error.strerror or error}", "name a file you may write"
-        ) from error
 
 
 def seal(folder: Path, rows: Sequence[Row]) -> Path:

@@ -10,7 +10,7 @@ from dataclasses import asdict, fields
 from pathlib import Path
 
 from shoal.core.errors import RecordError
-from shoal.experiments.results import write_whole
+from shoal.core.files import write_whole
 from shoal.paper.report_page import Picture, page
 from shoal.paper.results import Claim, Figure, Reproduction, Row
 from shoal.viz.files import save_figure

@@ -12,9 +12,10 @@ import numba
 import numpy as np
 
 from shoal.core.errors import RecordError, ScenarioError
+from shoal.core.files import write_whole
 from shoal.experiments.cells import make_cells
 from shoal.experiments.executors import in_threads
-from shoal.experiments.results import seal, write_whole
+from shoal.experiments.results import seal
 from shoal.experiments.sweep import Progress, sweep
 from shoal.paper.claims import oceans_claims
 from shoal.paper.clusters import watch_clusters

@@ -1,8 +1,6 @@
 """Replay: a record as one page that needs no engine and no network."""
 
-from pathlib import Path
 from typing import Literal
-from uuid import uuid4
 
 import numpy as np
 import numpy.typing as npt
@@ -38,25 +36,6 @@ def replay_page(record: Record, *, frames: int = FRAMES, part: Part = "all") -> 
     run, kept = next(iter(record.trajectories.items()))
     chosen = choose_frames(np.asarray(kept.step), frames, part)
     return inline_page(recorded_scene(record, run), b"".join(recorded_frames(record, run, chosen)))
-
-
-def save_page(page: str, path: str | Path) -> None:
-    """Write a page to a file, whole or not at all; a file of this name is replaced.
-
-    Raises
-    ------
-    RecordError : the file cannot be written
-    """
-    file = Path(path)
-    partial = file.with_name(f".{file.name}.{uuid4().hex}.partial")
-    try:
-        partial.write_text(page, encoding="utf-8")
-        partial.replace(file)
-    except OSError as error:
-        problem = f"cannot be written: {error.strerror or error}"
-        raise RecordError(str(file), problem, "name a file in a folder that exists and you may write") from error
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 def choose_frames(steps: npt.NDArray[np.int64], frames: int, part: Part) -> npt.NDArray[np.int64]:

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO, Any
-from uuid import uuid4
 
 from shoal.core.errors import MissingExtraError, RecordError
+from shoal.core.files import whole_file
 
 COLORS = 96  # of a gif's palette; figures have few, and their edges blend
 
@@ -52,22 +52,14 @@ def encoder(file: Path, size: tuple[int, int], fps: float, palette: bytes | None
     """
     ffmpeg = find_ffmpeg()
     look: tuple[str, ...]
-    partial = file.with_name(f".{file.name}.{uuid4().hex}.partial")
-    try:
-        with tempfile.TemporaryDirectory(prefix="shoal-film-") as folder:
-            if file.suffix.lower() == ".gif":
-                colors = _palette(file, ffmpeg, Path(folder) / "palette.png", size, palette or b"")
-                look = ("-i", str(colors), *_GIF)
-            else:
-                look = _MP4
-            with _running(file, [ffmpeg, *_raw(size, fps), *look, "-bitexact", "-y", str(partial)]) as pipe:
-                yield pipe.write
-        partial.replace(file)
-    except OSError as error:
-        raise _failed(file, error.strerror or str(error)) from error
-    finally:
-        with suppress(OSError):
-            partial.unlink(missing_ok=True)
+    with whole_file(file) as partial, tempfile.TemporaryDirectory(prefix="shoal-film-") as folder:
+        if file.suffix.lower() == ".gif":
+            colors = _palette(file, ffmpeg, Path(folder) / "palette.png", size, palette or b"")
+            look = ("-i", str(colors), *_GIF)
+        else:
+            look = _MP4
+        with _running(file, [ffmpeg, *_raw(size, fps), *look, "-bitexact", "-y", str(partial)]) as pipe:
+            yield pipe.write
 
 
 def _raw(size: tuple[int, int], fps: float) -> list[str]:

@@ -1,11 +1,10 @@
 """A figure on disk: SVG, PNG or PDF, whole or not at all, the same bytes for the same figure."""
 
-from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
-from uuid import uuid4
 
-from shoal.core.errors import RecordError, ShoalError
+from shoal.core.errors import ShoalError
+from shoal.core.files import whole_file
 from shoal.version import VERSION
 from shoal.viz.style import RC, style
 
@@ -33,20 +32,9 @@ def save_figure(figure: "Figure", path: str | Path, dpi: float | None = None) ->
     RecordError : the file cannot be written; what was there before is untouched
     MissingExtraError : matplotlib is not installed
     """
-    file = Path(path)
-    kind = figure_format(file)
-    partial = file.with_name(f".{file.name}.{uuid4().hex}.partial")
-    try:
-        with style(), partial.open("xb") as stream:
-            figure.savefig(
-                stream, format=kind, dpi=dpi or RC["savefig.dpi"], facecolor="white", metadata=_NO_DATES[kind]
-            )
-        partial.replace(file)
-    except OSError as error:
-        raise _unwritable(file, error) from error
-    finally:
-        with suppress(OSError):
-            partial.unlink(missing_ok=True)
+    kind = figure_format(path)
+    with whole_file(path) as partial, style(), partial.open("xb") as stream:
+        figure.savefig(stream, format=kind, dpi=dpi or RC["savefig.dpi"], facecolor="white", metadata=_NO_DATES[kind])
 
 
 def figure_format(path: str | Path) -> str:
@@ -63,11 +51,3 @@ def figure_format(path: str | Path) -> str:
         )
         raise ShoalError(str(path), problem, f"name a file that ends in .{', .'.join(FORMATS[:-1])} or .{FORMATS[-1]}")
     return kind
-
-
-def _unwritable(file: Path, error: OSError) -> RecordError:
-    return RecordError(
-        str(file),
-        f"cannot be written: {error.strerror or error}",
-        "name a file in a folder that exists and you may write",
-    )

@@ -251,7 +251,7 @@ def _settle_tie(links, i, k, agents):
                 second = d
         if within < k and beyond < np.inf:
             reach = beyond
-        elif within - equal >= k:
+        elif within - equal >= k and second >= 0.0:  # it is below zero where distances are no numbers
             reach = second
         else:
             break
