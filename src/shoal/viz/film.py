@@ -70,6 +70,8 @@ def write_film(
 
     A .png shows the last of these steps. A file of this name is replaced when the film is complete.
 
+    `write_film(record, "swarm.mp4", steps=200, look=FilmLook(fps=25, parts=Parts(links=True)))`
+
     Raises
     ------
     ShoalError : another suffix, or a frame rate or size that cannot be
