@@ -36,9 +36,9 @@ def browser():
         browser.close()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def address():
-    """A run that all tests of this file watch and change, one after the other."""
+    """A run of oceans2020 that plays."""
     with watching(Session([read_table("oceans2020")])) as where:
         yield where
 
@@ -86,12 +86,6 @@ def pause(page):
 def play(page):
     page.get_by_role("button", name="Play").click()
     page.wait_for_function("() => shoal.playing()")
-
-
-def at_rest(page):
-    """Pause, unless the run stands still already."""
-    if page.evaluate("shoal.playing()"):
-        pause(page)
 
 
 def slide(page, name, key, times):
@@ -145,7 +139,6 @@ class TestWatching:
         before = page.evaluate("shoal.step()")
         page.get_by_role("button", name="One step forward").click()
         page.wait_for_function("step => shoal.step() === step", arg=before + 1)
-        play(page)
 
     def test_agents_that_hear_fewer_others_have_fewer_links(self, open_page, address):
         page = open_page(address)
@@ -155,7 +148,6 @@ class TestWatching:
         page.wait_for_function("many => shoal.links() < many / 2", arg=many)
         slide(page, "Neighbors heard, k", "ArrowRight", 15)
         page.wait_for_function("many => shoal.links() > many / 2", arg=many)
-        play(page)
 
     def test_a_buoy_that_is_clicked_with_the_tool_is_gone(self, open_page, address):
         page = open_page(address)
@@ -168,7 +160,7 @@ class TestWatching:
 
     def test_a_click_on_empty_water_adds_a_buoy(self, open_page, address):
         page = open_page(address)
-        at_rest(page)
+        pause(page)
         before = page.evaluate("shoal.agents()")
         page.keyboard.press("4")
         page.mouse.click(*place(page, -8.0, 8.0))
@@ -176,7 +168,7 @@ class TestWatching:
 
     def test_a_target_can_be_dragged(self, open_page, address):
         page = open_page(address)
-        at_rest(page)
+        pause(page)
         page.keyboard.press("2")
         page.mouse.move(*place(page, 0.0, 0.0))
         page.mouse.down()
@@ -193,7 +185,7 @@ class TestWatching:
 
     def test_the_past_comes_back_to_the_byte(self, open_page, address):
         page = open_page(address)
-        at_rest(page)
+        pause(page)
         step, shown = page.evaluate("shoal.step()"), page.evaluate(SHOWN)
         for _ in range(5):
             page.keyboard.press("ArrowRight")
@@ -205,8 +197,6 @@ class TestWatching:
             page.wait_for_function("before => shoal.step() < before", arg=before)
         assert page.evaluate("shoal.step()") == step
         assert page.evaluate(SHOWN) == shown
-        page.keyboard.press("End")
-        play(page)
 
     def test_the_past_cannot_be_changed_and_the_page_says_so(self, open_page, address):
         page = open_page(address)
@@ -216,7 +206,6 @@ class TestWatching:
         assert page.get_by_role("slider", name="Neighbors heard, k").is_disabled()
         page.keyboard.press("End")
         page.get_by_text("This is the past.").wait_for(state="hidden")
-        play(page)
 
     def test_two_browsers_watch_the_same_run(self, open_page, address):
         one, two = open_page(address), open_page(address)
@@ -378,13 +367,12 @@ class TestEveryScreen:
 
     def test_touch_removes_a_buoy_too(self, open_page, address):
         page = open_page(address, PHONE, has_touch=True)
-        at_rest(page)
+        pause(page)
         before = page.evaluate("shoal.agents()")
         page.locator("label", has_text="Remove").tap()
         page.evaluate("scrollTo(0, 0)")
         page.touchscreen.tap(*first_living_agent(page))
         page.wait_for_function("before => shoal.agents() === before - 1", arg=before)
-        play(page)
 
 
 def test_frames_of_the_page_are_those_of_the_engine(open_page, replay, record):

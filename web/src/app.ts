@@ -29,7 +29,10 @@ export class App implements Listener {
   private numbers!: Numbers;
   private swarm: SwarmControls | null = null;
   private readonly switches = new Switches(() => this.refresh());
-  private readonly transport = new Transport((request) => this.send(request));
+  private readonly transport = new Transport(
+    (request) => this.send(request),
+    () => this.api.step(),
+  );
   private theme: Theme = readTheme();
   private counted = 0; // [ms], when the numbers were last drawn
   private uncounted = true;

@@ -29,7 +29,10 @@ export class Transport {
   private timeStep = 0; // [s]
   private wanted: number | null = null; // step to seek in the next frame
 
-  constructor(private readonly send: (request: Request) => void) {
+  constructor(
+    private readonly send: (request: Request) => void,
+    private readonly shown: () => number, // the step on the water: the status comes after its frame
+  ) {
     this.play.classList.add("main");
     this.root.append(
       el("div", { class: "buttons" }, this.restart, this.back, this.play, this.forward, this.newest),
@@ -75,7 +78,7 @@ export class Transport {
 
   /** Steps back go to the last frame that is kept. */
   stepBy(steps: number): void {
-    if (steps < 0 && this.status) this.send({ do: "seek", step: Math.max(this.status.step + steps, this.status.first) });
+    if (steps < 0) this.send({ do: "seek", step: Math.max(this.shown() + steps, this.status?.first ?? 0) });
     else this.send({ do: "step", steps });
   }
 
