@@ -88,7 +88,7 @@ class TestByFleet:
         assert np.isnan(phi_histogram(tally)).all()
 
     def test_without_a_target_there_is_no_stationary_share(self, tally):
-        tally.present[:] = 0
+        tally.present[:] = tally.histogram[:] = tally.stationary[:] = 0
         assert np.isnan(fleet_stationary(tally, FACTS)).all()
         assert not np.isnan(fleet_fluctuation(tally, FACTS)).any()
 

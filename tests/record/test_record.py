@@ -71,6 +71,21 @@ class TestRobustness:
         assert change["before"].mean > 0.2
         assert change["during"].runs == (0.0, 0.0)
 
+    def test_a_swarm_that_was_never_there_has_no_means(self):
+        record = simulate(scenario("oceans2020", {"losses": [{"step": 1, "count": 50}], "steps": 60}))
+        summary = record.summary()  # and no warning, though whole batches have nobody
+        assert summary["time_on_target"]["mean"] <= 1 / 60
+        assert 0.0 <= summary["stationary"]["mean"] <= 1.0
+
+    def test_the_stationary_share_counts_those_who_are_there(self):
+        lost = {"losses": [{"step": 300, "count": 25}], "steps": 600, "strategy": "lattice"}
+        frames = simulate(scenario("oceans2020", lost), every=1).trajectories[0]
+        share = simulate(scenario("oceans2020", lost)).estimate("stationary").mean
+        moved = np.hypot(np.diff(frames.x, axis=0), np.diff(frames.y, axis=0)) / 0.1
+        slow = moved < 0.1 * np.repeat([2.6, 1.0], [15, 35])
+        there = frames.alive[:-1]
+        assert share == pytest.approx((slow & there).sum() / there.sum(), abs=0.01)
+
 
 class TestHistogram:
     """phi, in agents per step."""

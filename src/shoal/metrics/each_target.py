@@ -4,7 +4,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.core.agents import Floats
-from shoal.metrics.summary import Facts
+from shoal.metrics.summary import Facts, or_nan
 from shoal.metrics.tally import Tally
 
 
@@ -14,12 +14,12 @@ def each_target(tally: Tally, facts: Facts) -> dict[str, Floats]:
     Defined as for the swarm (METRICS), over the steps at which this target is there. NaN: it never was, or was never
     found again.
     """
-    there = _whole(tally.target_steps)
+    there = or_nan(tally.target_steps.sum(axis=0))
     return {
         "time_on_target": tally.watched.sum(axis=0) / there,
         "first_detection": tally.undetected.sum(axis=0) * facts.time_step,
         "losses": tally.losses.sum(axis=0) / there * 3600.0 / facts.time_step,
-        "reacquisition": tally.ended_steps.sum(axis=0) / _whole(tally.ended) * facts.time_step,
+        "reacquisition": tally.ended_steps.sum(axis=0) / or_nan(tally.ended.sum(axis=0)) * facts.time_step,
     }
 
 
@@ -32,9 +32,3 @@ def loss_lengths(tally: Tally, facts: Facts) -> tuple[Floats, npt.NDArray[np.int
     used = int(np.flatnonzero(counts)[-1]) + 1 if counts.any() else 0
     edges: Floats = facts.time_step * np.exp2(np.arange(used + 1, dtype=float))
     return edges, counts[:used]
-
-
-def _whole(parts: Floats) -> Floats:
-    """Sums over batches, NaN instead of zero."""
-    sums: Floats = parts.sum(axis=0)
-    return np.where(sums > 0, sums, np.nan)

@@ -55,14 +55,14 @@ def _fleet_agents(tally: Tally) -> Floats:
 
 
 def _agents(tally: Tally) -> float:
-    """N, the mean number of agents that are there."""
-    return float(_fleet_agents(tally).sum())
+    """N, the mean number of agents that are there; NaN if nobody ever is."""
+    return float(_fleet_agents(tally).sum()) or float("nan")
 
 
 def mean_max_speed(tally: Tally, facts: Facts) -> float:
     """vbar_max: mean top speed of the agents [m/s]. Kwa et al., Heterogeneous Swarms, Eq. 6."""
     agents = _fleet_agents(tally)
-    return float(sum(n * v for n, v in zip(agents, facts.max_speeds, strict=True)) / agents.sum())
+    return float(sum(n * v for n, v in zip(agents, facts.max_speeds, strict=True)) / or_nan(agents.sum()))
 
 
 def _seconds(tally: Tally, facts: Facts) -> float:
@@ -102,7 +102,7 @@ METRICS: dict[str, Metric] = {
     "stationary": Metric(
         "1",
         "share of agents slower than a tenth of their top speed while a target is there",
-        lambda t, f: _share(t.stationary, t.present) / _agents(t),
+        lambda t, f: _share(t.stationary, t.histogram),
     ),
     "target_present": Metric("1", "share of the steps with a target there", lambda t, f: _share(t.present, t.steps)),
     "targets_observed": Metric(
@@ -184,21 +184,25 @@ def phi_histogram(tally: Tally) -> Floats:
 
 def fleet_fluctuation(tally: Tally, facts: Facts) -> Floats:
     """xi_raw of each fleet [m/s], (F,): fluctuation around the mean velocity of the whole swarm."""
-    result: Floats = tally.fluctuation.sum(axis=0) / tally.steps.sum() / _fleet_agents(tally)
+    result: Floats = tally.fluctuation.sum(axis=0) / or_nan(tally.steps.sum() * _fleet_agents(tally))
     return result
 
 
 def fleet_stationary(tally: Tally, facts: Facts) -> Floats:
     """Stationary share of each fleet, (F,)."""
-    present = tally.present.sum()
-    result: Floats = tally.stationary.sum(axis=0) / (present if present > 0 else np.nan) / _fleet_agents(tally)
+    result: Floats = tally.stationary.sum(axis=0) / or_nan(tally.histogram.sum(axis=(0, 2)))
     return result
 
 
 def fleet_power(tally: Tally, facts: Facts) -> tuple[Floats, Floats]:
     """Mean speed [m/s] and mean cube of the speed [m^3/s^3] of each fleet's agents, (F,)."""
-    steps = tally.agent_steps.sum(axis=0) * facts.time_step
+    steps = or_nan(tally.agent_steps.sum(axis=0)) * facts.time_step
     begins = np.concatenate([[0], np.cumsum(facts.counts)[:-1]])
     distance: Floats = np.add.reduceat(tally.distance.sum(axis=0), begins) / steps
     cubes: Floats = np.add.reduceat(tally.cubes.sum(axis=0), begins) / steps
     return distance, cubes
+
+
+def or_nan(sums: npt.NDArray[Any]) -> Floats:
+    """Sums to divide by, NaN where they are zero: what nobody was there for has no mean."""
+    return np.where(sums > 0, sums, np.nan)
