@@ -109,7 +109,7 @@ def _carry_memory(old: Simulation, new: Simulation, here: Lanes, there: Lanes) -
             new.swarm.memory[here[same], column] = old.swarm.memory[there[same], old.memory_fields.index(name)]
     new.swarm.told[:] = new.swarm.memory[:, : new.swarm.told.shape[1]]  # memory begins with what is told
     if old.radio.adaptive and new.radio.adaptive:
-        degrees = np.clip(old.swarm.neighbors[there], new.radio.fewest, new.radio.most)
+        degrees = np.clip(old.swarm.neighbors[there], new.radio.fewest[here], new.radio.most[here])
         new.swarm.neighbors[here] = degrees
 
 

@@ -13,8 +13,8 @@ NEUTRAL = {
     "a false alarm that never happens": {f"{fleet}.false_alarm_probability": 1e-300 for fleet in FLEETS},
     "a loss of agents after the end": {"losses": [{"step": STEPS, "count": 10}]},
     "a lifetime beyond the end": {f"{fleet}.mean_lifetime": 1e12 for fleet in FLEETS},
-    "limits beyond what agents do": {f"{fleet}.max_acceleration": 1e9 for fleet in FLEETS}
-    | {f"{fleet}.max_turn_rate": 1e9 for fleet in FLEETS},
+    "limits beyond what agents do": {f"{fleet}.max_acceleration": 1e12 for fleet in FLEETS}
+    | {f"{fleet}.max_turn_rate": 1e12 for fleet in FLEETS},
     "the swarm's k for each fleet": {f"{fleet}.neighbors": 20 for fleet in FLEETS},
     "a degree that adapts from 20 to 20": {"network.adaptive": {"fewest": 20, "most": 20}},
     "the swarm's strategy for each fleet": {f"{fleet}.strategy": "knn-pso" for fleet in FLEETS},

@@ -145,8 +145,8 @@ class TestInARun:
         assert self.metric(simulation, "bandwidth") == pytest.approx(200.0 * 37)
 
     def test_what_is_told_makes_reports_longer(self):
-        simulation = Simulation(scenario("oceans2020", {"strategy": "encircle"}))
-        assert facts_of(simulation.scenario).report_bytes == 37 + 6 * 8
+        simulation = Simulation(scenario("oceans2020", {"strategy": "shared-sighting"}))
+        assert facts_of(simulation.scenario).report_bytes == 37 + 3 * 8
 
     def test_messages_are_of_those_who_are_there(self):
         changes = {"fleets": fleets((30, 1.0), (20, 1.0)), "network.neighbors": 5}

@@ -214,7 +214,7 @@ class TestDelay:
                 assert swarm.x[1] == 400.0
 
     def test_what_is_told_of_memories_is_as_old(self):
-        changes = {"network.delay": 6, "strategy": "encircle", "targets.0.radius": 3.0}
+        changes = {"network.delay": 6, "strategy": "shared-sighting", "targets.0.radius": 3.0}
         simulation = Simulation(scenario("oceans2020", changes))
         told = []
         for number in range(30):

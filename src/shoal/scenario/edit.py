@@ -150,8 +150,9 @@ SHORTHANDS: dict[str, Callable[[Table, Any], None]] = {
 
 
 def _fastest_and_slowest(table: Table, option: str) -> tuple[Table, Table]:
+    fleets = _fleets(table, option)
     try:
-        fleets = sorted(_fleets(table, option), key=lambda fleet: float(Unit("m/s").parse(fleet["max_speed"])))
+        fleets.sort(key=lambda fleet: float(Unit("m/s").parse(fleet["max_speed"])))
     except (KeyError, TypeError, ValueError):
         raise ScenarioError(option, "needs fleets, each with a max_speed", "see `shoal scenario oceans2020`") from None
     if len(fleets) < 2:
@@ -163,9 +164,9 @@ def _fleets(table: Table, option: str) -> list[Table]:
     """The fleets of a table that may be wrong elsewhere."""
     fleets = table.get("fleets")
     counted = isinstance(fleets, list) and all(
-        isinstance(each, dict) and isinstance(each.get("count"), int) and each["count"] > 0 for each in fleets
+        isinstance(each, dict) and isinstance(each.get("count"), int) and each["count"] >= 0 for each in fleets
     )
-    if not fleets or not counted:
+    if not counted or not any(each["count"] for each in fleets):
         raise ScenarioError(option, "needs fleets, each with a count", "see `shoal scenario oceans2020` for an example")
     return list(fleets)
 
