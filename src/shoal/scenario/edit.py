@@ -163,12 +163,11 @@ def _fastest_and_slowest(table: Table, option: str) -> tuple[Table, Table]:
 def _fleets(table: Table, option: str) -> list[Table]:
     """The fleets of a table that may be wrong elsewhere."""
     fleets = table.get("fleets")
-    counted = isinstance(fleets, list) and all(
-        isinstance(each, dict) and isinstance(each.get("count"), int) and each["count"] >= 0 for each in fleets
-    )
-    if not counted or not any(each["count"] for each in fleets):
+    known = [each for each in fleets if isinstance(each, dict)] if isinstance(fleets, list) else []
+    counts = [each.get("count") for each in known]
+    if not all(isinstance(count, int) and count >= 0 for count in counts) or not any(counts):
         raise ScenarioError(option, "needs fleets, each with a count", "see `shoal scenario oceans2020` for an example")
-    return list(fleets)
+    return known
 
 
 def _index(entries: list[Any], part: str, where: str) -> int:
