@@ -18,7 +18,8 @@ from shoal.view.session import Session
 CHROMIUM = [Path(path) for path in ("/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome")]
 DESK = {"width": 1280, "height": 720}
 PHONE = {"width": 390, "height": 844}
-STEPS = 2000
+STEPS = 2000  # of the replay
+SPEED = 10.0  # times real time
 
 
 def main(folder: Path) -> None:
@@ -38,21 +39,21 @@ def main(folder: Path) -> None:
 
 def shoot_live(browser: Browser, folder: Path) -> None:
     """A running swarm: light, dark with halos, the keys, and on a phone."""
-    with watching(Session([read_table("oceans2020")], speed=20.0)) as address:
-        shoot(browser, address, folder / "live.png", run_for_a_while)
-        shoot(browser, address, folder / "live-dark.png", lambda page: page.keyboard.press("h"), color_scheme="dark")
-        shoot(browser, address, folder / "keys.png", lambda page: page.keyboard.press("?"))
-        shoot(browser, address, folder / "phone.png", viewport=PHONE, has_touch=True)
-        shoot(browser, address, folder / "phone-dark.png", viewport=PHONE, has_touch=True, color_scheme="dark")
+    with watching(Session([read_table("oceans2020")], speed=SPEED)) as address:
+        shoot(browser, address, folder / "live.png", run_on)
+        shoot(browser, address, folder / "live-dark.png", run_on, key="h", color_scheme="dark")
+        shoot(browser, address, folder / "keys.png", run_on, key="?")
+        shoot(browser, address, folder / "phone.png", run_on, viewport=PHONE, has_touch=True)
+        shoot(browser, address, folder / "phone-dark.png", run_on, viewport=PHONE, has_touch=True, color_scheme="dark")
 
 
 def shoot_comparison(browser: Browser, folder: Path) -> None:
     """Two runs on one seed, that differ in k."""
     few = read_table("oceans2020")
     few["network"]["neighbors"] = 5
-    with watching(Session([read_table("oceans2020"), few], speed=20.0)) as address:
-        shoot(browser, address, folder / "against.png", run_for_a_while)
-        shoot(browser, address, folder / "against-dark.png", color_scheme="dark")
+    with watching(Session([read_table("oceans2020"), few], speed=SPEED)) as address:
+        shoot(browser, address, folder / "against.png", run_on)
+        shoot(browser, address, folder / "against-dark.png", run_on, color_scheme="dark")
 
 
 def shoot_replay(browser: Browser, folder: Path) -> None:
@@ -72,18 +73,23 @@ def shoot_replay(browser: Browser, folder: Path) -> None:
 
 
 def shoot(
-    browser: Browser, address: str, file: Path, prepare: Callable[[Page], Any] = lambda page: None, **options: Any
+    browser: Browser, address: str, file: Path, prepare: Callable[[Page], None], key: str | None = None, **options: Any
 ) -> None:
-    """Open an address, prepare the page and take its picture."""
+    """Open an address, prepare the page, press a key and take its picture."""
     with opened(browser, address, **{"viewport": DESK, "device_scale_factor": 2, **options}) as page:
         prepare(page)
+        if key:
+            page.keyboard.press(key)
         page.wait_for_timeout(500)  # numbers and charts follow ten times a second
         page.screenshot(path=file)
 
 
-def run_for_a_while(page: Page) -> None:
-    """Let a live run go on until its numbers mean something, then pause it."""
-    page.wait_for_function(f"() => shoal.step() >= {STEPS}")
+def run_on(page: Page) -> None:
+    """Let a live run go on for long enough to fill the charts, then pause it."""
+    if not page.evaluate("() => shoal.playing()"):
+        page.keyboard.press(" ")
+    last = page.evaluate("() => shoal.step()") + 700
+    page.wait_for_function("last => shoal.step() >= last", arg=last)
     page.keyboard.press(" ")
     page.wait_for_function("() => !shoal.playing()")
 
