@@ -41,6 +41,7 @@ lint: $(VENV)/.installed
 
 bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/bench_engine.py
+	$(BIN)/python benchmarks/bench_strategies.py
 
 arena: $(VENV)/.installed
 	$(BIN)/shoal compare --suite arena --out arena-output --markdown docs/reference/arena.md
