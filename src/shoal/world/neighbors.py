@@ -157,7 +157,7 @@ def _count(links):
 
 @kernel
 def _step_once(links, neighbors):
-    """Step every reach over one speaker toward hearing k; return how many listeners need more than that.
+    """Step every reach over one speaker toward hearing k; return how many listeners a better guess would bring nearer.
 
     `off` is how many speakers were missing. No branches: who is how far off is chance, and a wrong prediction costs
     more than all of this.
@@ -167,9 +167,7 @@ def _step_once(links, neighbors):
     )  # fmt: skip
     unsettled = 0
     for i in range(reach.size):
-        missing = neighbors[i] - heard[i]
-        off[i] = missing
-        unsettled += missing * missing > 1
+        off[i] = neighbors[i] - heard[i]
     for i in range(reach.size):
         missing = off[i]
         nearest, farthest = above[i], below[i]
@@ -179,6 +177,8 @@ def _step_once(links, neighbors):
         middle = 0.5 * (farthest + (nearest if nearest < wide else wide))
         step = nearest if missing > 0 else farthest * _BELOW
         reach[i] = middle if missing == 0 else step
+    for i in range(reach.size):
+        unsettled += (off[i] * off[i] > 1) & (low[i] < high[i])
     return unsettled
 
 
@@ -212,7 +212,7 @@ def _walk(links, i, off):
                 d, odd = square[j, i], square[j + 1, i]
                 nearest = d if d > reach and d < nearest else nearest
                 nearest_odd = odd if odd > reach and odd < nearest_odd else nearest_odd
-            reach = min(nearest, nearest_odd)
+            further = min(nearest, nearest_odd)
         else:
             farthest = 0.0
             farthest_odd = 0.0
@@ -220,7 +220,10 @@ def _walk(links, i, off):
                 d, odd = square[j, i], square[j + 1, i]
                 farthest = d if d <= reach and d > farthest else farthest
                 farthest_odd = odd if odd <= reach and odd > farthest_odd else farthest_odd
-            reach = max(farthest, farthest_odd) * _BELOW
+            further = max(farthest, farthest_odd) * _BELOW
+        if further == reach:
+            break  # all are at one place: ties, see below
+        reach = further
     links.reach[i] = reach
 
 
