@@ -37,7 +37,7 @@ def compare_strategies(
     from shoal.experiments.cells import make_cells
     from shoal.experiments.compare import comparison_design, run_comparison, values_of
     from shoal.experiments.comparison import compare, direction_of
-    from shoal.experiments.compiling import compiled_first
+    from shoal.experiments.compiled_first import compiled_first
     from shoal.experiments.contenders import contenders
     from shoal.experiments.design import parse_vary
     from shoal.experiments.executors import in_threads

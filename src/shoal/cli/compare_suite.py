@@ -28,7 +28,7 @@ def compare_suite(
     from shoal.cli.compare_data import leaderboard_data
     from shoal.cli.compare_figure import leaderboard_figure
     from shoal.cli.compare_table import print_leaderboard
-    from shoal.experiments.compiling import compiled_first
+    from shoal.experiments.compiled_first import compiled_first
     from shoal.experiments.contenders import contenders
     from shoal.experiments.executors import in_threads
     from shoal.experiments.leaderboard import make_leaderboard

@@ -112,9 +112,9 @@ def _watch(
     browser: bool,
     out: Path | None,
 ) -> None:
+    from shoal.compiling import needs_compiling
     from shoal.record.files import RecordFolder
     from shoal.scenario.load import scenario_from
-    from shoal.simulation import needs_compiling
     from shoal.view.server import live_app, serving
     from shoal.view.session import Session
     from shoal.view.worker import Worker
