@@ -15,7 +15,8 @@ from scenarios import scenario, small
 from shoal.core.errors import RecordError, ScenarioError
 from shoal.record.files import open_record
 from shoal.runs import simulate
-from shoal.simulation import Simulation, count_frames, facts_of
+from shoal.scenario.facts import facts_of
+from shoal.simulation import Simulation, count_frames
 
 SOON = 1.0  # [s]
 LONG = 400_000  # steps, several seconds

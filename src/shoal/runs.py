@@ -14,13 +14,15 @@ from typing import Any
 import numba
 import numpy as np
 
+from shoal.compiling import mark_compiled
 from shoal.core.errors import ScenarioError
 from shoal.metrics.tally import Tally
 from shoal.record.files import RecordFolder
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
+from shoal.scenario.facts import facts_of
 from shoal.scenario.schema import Scenario
-from shoal.simulation import Simulation, count_frames, facts_of, mark_compiled
+from shoal.simulation import Simulation, count_frames
 from shoal.version import RESULTS_VERSION, VERSION
 
 OVERVIEW = 500  # frames of the first run kept over its whole length, if not told otherwise

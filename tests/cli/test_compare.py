@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from shoal.cli.main import run_command
+from commands import shoal
 
 pytest.importorskip("scipy.stats", reason="scipy is not installed")
 
@@ -20,13 +20,6 @@ class Params(NamedTuple):
 def decide(me, heard, memory, params, draw):
     return {velocity}
 """
-
-
-def shoal(capsys, *tokens):
-    """Run a command; return exit code, stdout and stderr."""
-    code = run_command([str(token) for token in tokens])
-    captured = capsys.readouterr()
-    return code, captured.out, captured.err
 
 
 def started(folder):

@@ -10,16 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from shoal.cli.main import run_command
+from commands import shoal
 
 SHARED = Path(__file__).resolve().parents[2] / ".." / "shared" / "data"
-
-
-def shoal(capsys, *tokens):
-    """Run a command; return exit code, stdout and stderr."""
-    code = run_command([str(token) for token in tokens])
-    captured = capsys.readouterr()
-    return code, captured.out, captured.err
 
 
 class TestRun:

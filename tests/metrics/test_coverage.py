@@ -7,7 +7,8 @@ from coasting import coasting
 from scenarios import scenario, small
 from shoal.metrics.coverage import CELLS, WINDOW
 from shoal.metrics.summary import evaluate
-from shoal.simulation import Simulation, facts_of
+from shoal.scenario.facts import facts_of
+from shoal.simulation import Simulation
 
 
 def metrics_of(simulation):

@@ -8,8 +8,9 @@ import pytest
 from scenarios import scenario
 from shoal.core.errors import ScenarioError, StrategyError
 from shoal.metrics.summary import evaluate
+from shoal.scenario.facts import facts_of
 from shoal.scenario.load import load, scenario_from, to_toml
-from shoal.simulation import Simulation, facts_of
+from shoal.simulation import Simulation
 from shoal.strategies import CATALOGUE, strategy
 
 STEPS = 300

@@ -12,8 +12,9 @@ from shoal.core.errors import ScenarioError
 from shoal.metrics.summary import evaluate
 from shoal.runs import simulate
 from shoal.scenario.edit import apply
+from shoal.scenario.facts import facts_of
 from shoal.scenario.load import read_table, scenario_from
-from shoal.simulation import Simulation, facts_of
+from shoal.simulation import Simulation
 from shoal.view.glance import glance
 from shoal.view.live import LiveRun
 

@@ -9,7 +9,8 @@ from frames import decode, same_number
 from scenarios import scenario
 from shoal.metrics.summary import evaluate
 from shoal.runs import simulate
-from shoal.simulation import Simulation, facts_of
+from shoal.scenario.facts import facts_of
+from shoal.simulation import Simulation
 from shoal.view.recorded import recorded_frames, recorded_scene
 
 STEPS = 2000

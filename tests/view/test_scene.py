@@ -5,7 +5,7 @@ import json
 import pytest
 
 from scenarios import scenario
-from shoal.simulation import facts_of
+from shoal.scenario.facts import facts_of
 from shoal.strategies import CATALOGUE
 from shoal.view.scene import as_json, describe, scene_of
 

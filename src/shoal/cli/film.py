@@ -131,8 +131,8 @@ def _filmed(
     source: str, table: dict[str, Any], start: int, steps: int | None, every: int, run: int
 ) -> tuple[int, "Record"]:
     """Run a scenario, a little before `start` for the trails; return the first step shown, and the record."""
+    from shoal.scenario.facts import facts_of
     from shoal.scenario.load import scenario_from
-    from shoal.simulation import facts_of
     from shoal.viz.footage import footage
     from shoal.viz.scene import trail_steps
 

@@ -24,7 +24,7 @@ app.command("shoal.cli.film:film", name="film", help="Make a film or a still of 
 app.command("shoal.cli.watch:watch", name="watch", help="Watch a run in the browser, and change it as it goes.")
 app.command("shoal.cli.replay:replay", name="replay", help="Write a page that plays a record by itself.")
 app.command("shoal.cli.sweep:sweep", name="sweep", help="Run every combination of varied fields, several times each.")
-app.command("shoal.cli.compare:compare", name="compare", help="Compare strategies, with the same seeds.")
+app.command("shoal.cli.compare.command:compare", name="compare", help="Compare strategies, with the same seeds.")
 app.command("shoal.cli.reproduce:reproduce", name="reproduce", help="Reproduce a paper: its figures, its claims.")
 app.command("shoal.cli.results:results", name="results", help="Print means and 95 % intervals of a sweep.")
 app.command("shoal.cli.results:plot", name="plot", help="Draw a metric of a sweep against a field.")

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from shoal.core.errors import ScenarioError
 from shoal.scenario.edit import apply, parse_assignment, parse_value
 from shoal.scenario.load import read_table
 from shoal.scenario.on_track import put_on_track
@@ -12,6 +13,8 @@ def edited_table(
     source: str, changes: Mapping[str, Any], assignments: Sequence[str], track: str | None, track_id: str | None
 ) -> dict[str, Any]:
     """Return the table of a preset or file with options applied in this order: changes, track, assignments."""
+    if track_id and not track:
+        raise ScenarioError("--track-id", "needs --target-track", "name the file that holds the track")
     table = read_table(source)
     wanted = {name: value for name, value in changes.items() if value is not None}
     if isinstance(speed := wanted.get("target-speed"), str):
@@ -23,3 +26,16 @@ def edited_table(
         wanted = late
     table = apply(table, wanted)
     return apply(table, dict(parse_assignment(each) for each in assignments))
+
+
+def given_changes(assignments: Sequence[str] | None, **options: Any) -> dict[str, Any]:
+    """Return the changes that --set asks for, and over them those options that are given."""
+    changes: dict[str, Any] = dict(map(parse_assignment, assignments or []))
+    return changes | {name: value for name, value in options.items() if value is not None}
+
+
+def check_positive(**options: float | None) -> None:
+    """Refuse options of 0 or less; `max_runs` is --max-runs."""
+    for name, number in options.items():
+        if number is not None and number <= 0:
+            raise ScenarioError(f"--{name.replace('_', '-')}", f"is {number}", "give a number above 0")

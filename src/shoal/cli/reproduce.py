@@ -34,18 +34,13 @@ def reproduce(
     jobs
         Threads, one run each; default one per core.
     """
-    from shoal.core.errors import ScenarioError
+    from shoal.cli.options import check_positive
     from shoal.paper.reproduce import reproduce as run_all
 
-    if jobs is not None and jobs < 1:
-        raise ScenarioError("--jobs", f"is {jobs}", "ask for 1 or more")
+    check_positive(jobs=jobs)
     folder = out or Path(f"reproduction-{paper}{'-quick' if quick else ''}")
-    try:
-        with sweep_progress() as report:
-            found = run_all(paper, folder, quick=quick, jobs=jobs, report=report)
-    except KeyboardInterrupt:
-        note(f"what is done is in {folder}; the same command goes on from there")
-        raise
+    with sweep_progress(folder) as report:
+        found = run_all(paper, folder, quick=quick, jobs=jobs, report=report)
     failed = [row for row in (*found.main, *found.sensitivity) if row["status"] == "failed"]
     if failed:
         note(f"{len(failed)} runs failed, the first: {failed[0]['error']}\n  fix: mend it, then the same command again")

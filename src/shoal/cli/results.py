@@ -81,8 +81,9 @@ def plot(
 
 
 def _print_groups(groups: list[dict[str, Any]], by: list[str]) -> None:
-    from rich.console import Console
     from rich.table import Table
+
+    from shoal.cli.console import results_console
 
     table = Table(box=None, padding=(0, 2, 0, 0))
     for name in (*by, "runs", "time on target", "Xi", "engaged"):
@@ -90,10 +91,7 @@ def _print_groups(groups: list[dict[str, Any]], by: list[str]) -> None:
     for group in groups:
         cells = [_with_interval(group, name) for name in ("time_on_target", "xi", "engaged")]
         table.add_row(*(str(group[name]) for name in by), str(group["runs"]), *cells)
-    console = Console(file=sys.stdout, highlight=False)
-    if not console.is_terminal:
-        console.width = 160  # a file or a pipe has no margin to fit
-    console.print(table)
+    results_console().print(table)
 
 
 def _with_interval(group: dict[str, Any], name: str) -> str:

@@ -73,7 +73,6 @@ def run(
         Print one JSON object and nothing else.
     """
     load_compiler()
-    from shoal.core.errors import ScenarioError
     from shoal.runs import simulate
     from shoal.scenario.load import read_table, scenario_from
 
@@ -86,8 +85,6 @@ def run(
         "steps": steps,
         "seed": seed,
     }
-    if track_id and not target_track:
-        raise ScenarioError("--track-id", "needs --target-track", "name the file that holds the track")
     if figure:
         from shoal.viz.files import figure_format
 

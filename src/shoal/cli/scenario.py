@@ -27,8 +27,8 @@ def check(file: str, /) -> None:
     file
         A TOML file or a preset's name.
     """
+    from shoal.build import open_tracks
     from shoal.scenario.load import load
-    from shoal.simulation import open_tracks
 
     loaded = load(file)
     for track in open_tracks(loaded):

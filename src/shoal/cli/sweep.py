@@ -68,20 +68,17 @@ def sweep(
         Print the design, the number of runs and an estimate of the time; run nothing.
     """
     load_compiler()
+    from shoal.cli.options import check_positive, given_changes
     from shoal.core.errors import ScenarioError
     from shoal.experiments.cells import make_cells
     from shoal.experiments.executors import in_threads, on_dask
     from shoal.experiments.results import seal
     from shoal.experiments.sweep import Stop, probe
     from shoal.experiments.sweep import sweep as run_sweep
-    from shoal.scenario.edit import parse_assignment
 
     design = _design(scenario, vary or [], runs)
-    for name, number in (("--runs", design.runs), ("--jobs", jobs), ("--max-runs", max_runs), ("--until-ci", until_ci)):
-        if number is not None and number <= 0:
-            raise ScenarioError(name, f"is {number}", "give a number above 0")
-    changes: dict[str, Any] = dict(parse_assignment(each) for each in assignments or [])
-    changes |= {name: value for name, value in (("steps", steps), ("seed", seed)) if value is not None}
+    check_positive(runs=design.runs, jobs=jobs, max_runs=max_runs, until_ci=until_ci)
+    changes = given_changes(assignments, steps=steps, seed=seed)
     cells = make_cells(design, changes, independent=independent)
     total = len(cells) * design.runs
     if dry_run:
@@ -93,21 +90,17 @@ def sweep(
     if out is None:
         raise ScenarioError("--out", "is missing", "name the folder of the store: --out DIR")
     execute = on_dask(scheduler, jobs) if executor == "dask" else in_threads(jobs)
-    try:
-        with sweep_progress() as report:
-            rows = run_sweep(
-                design,
-                out,
-                changes=changes,
-                executor=execute,
-                until=Stop(until_ci, max_runs) if until_ci else None,
-                independent=independent,
-                retry_failed=retry_failed,
-                report=report,
-            )
-    except KeyboardInterrupt:
-        note(f"what is done is in {out}; the same command goes on from there")
-        raise
+    with sweep_progress(out) as report:
+        rows = run_sweep(
+            design,
+            out,
+            changes=changes,
+            executor=execute,
+            until=Stop(until_ci, max_runs) if until_ci else None,
+            independent=independent,
+            retry_failed=retry_failed,
+            report=report,
+        )
     failed = sum(row["status"] == "failed" for row in rows)
     table = seal(out, rows)
     note(f"{len(rows)} runs in {out} ({failed} failed); table: {table}")

@@ -5,6 +5,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 from rich.console import Console
 from rich.live import Live
@@ -15,8 +16,20 @@ from shoal.experiments.sweep import Progress
 
 
 @contextmanager
-def sweep_progress() -> Iterator[Callable[[Progress], None]]:
-    """Yield a function to call after every run: one living line on a terminal, a line now and then in a log."""
+def sweep_progress(store: Path | None) -> Iterator[Callable[[Progress], None]]:
+    """Yield a function to call after every run; say what an interrupt leaves in the store, if it is to stay."""
+    try:
+        with _reporter() as report:
+            yield report
+    except KeyboardInterrupt:
+        if store:
+            note(f"what is done is in {store}; the same command goes on from there")
+        raise
+
+
+@contextmanager
+def _reporter() -> Iterator[Callable[[Progress], None]]:
+    """One living line on a terminal, a line now and then in a log."""
     console = Console(file=sys.stderr, highlight=False)
     if console.is_terminal:
         with Live(console=console, refresh_per_second=4, transient=True) as live:

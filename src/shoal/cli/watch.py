@@ -88,10 +88,9 @@ def watch(
         "steps": steps,
         "seed": seed,
     }
-    if track_id and not target_track:
-        raise ScenarioError("--track-id", "needs --target-track", "name the file that holds the track")
     if Path(source).is_dir():
-        if against or out or target_track or assignments or any(value is not None for value in changes.values()):
+        asked = [against, out, target_track, track_id, assignments, *changes.values()]
+        if any(each is not None for each in asked):
             raise ScenarioError(source, "is a record, which plays as it is", "watch its scenario to change something")
         _play_record(source, host, port, browser)
         return
@@ -112,9 +111,9 @@ def _watch(
     browser: bool,
     out: Path | None,
 ) -> None:
+    from shoal.compiling import needs_compiling
     from shoal.record.files import RecordFolder
     from shoal.scenario.load import scenario_from
-    from shoal.simulation import needs_compiling
     from shoal.view.server import live_app, serving
     from shoal.view.session import Session
     from shoal.view.worker import Worker

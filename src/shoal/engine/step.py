@@ -21,7 +21,7 @@ def step(here, world, swarm, radio, targets, scratch, minds, params, phases, bat
         enter(phases.link, here, number, first, step_key)
         listen(here, world, swarm, scratch, reports, told, params, phases, step_key, number, first)
         decide(world, swarm, targets, scratch, reports, told, minds, params, step_key, number, first)
-        enter(phases.go, here, number, (batch << 32) | first, step_key)
+        enter(phases.go, here, number, (batch << 32) | first, step_key)  # a phase takes two numbers, and go needs three
     enter(phases.conclude, here, number, batch, step_key)
 
 

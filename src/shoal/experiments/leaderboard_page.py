@@ -6,7 +6,7 @@ from pathlib import Path
 
 from shoal.core.errors import RecordError
 from shoal.core.files import write_whole
-from shoal.experiments.comparison import Condition
+from shoal.experiments.comparison import Condition, Standing
 from shoal.experiments.comparison_words import (
     REFERENCES,
     difference_text,
@@ -113,14 +113,7 @@ def _overview(board: Leaderboard) -> str:
     conditions = board.shares.conditions
     head = ["rank", "strategy", "score ± 95 %", "minus lattice", "adjusted p", *(each.name for each in conditions)]
     rows = [
-        [
-            rank_text(each),
-            name_text(each),
-            value_text(each),
-            difference_text(each),
-            p_text(each.adjusted_p),
-            *(share_text(condition.of(each.strategy)) for condition in conditions),
-        ]
+        [*_cells(each), *(share_text(condition.of(each.strategy)) for condition in conditions)]
         for each in board.overall.standings
     ]
     return _markdown(head, rows)
@@ -129,19 +122,13 @@ def _overview(board: Leaderboard) -> str:
 def _section(told: SuiteCondition, found: Condition) -> str:
     whole = f" / {told.whole:g}" if told.whole != 1 else ""
     head = ["rank", "strategy", "share ± 95 %", "minus lattice", "adjusted p", "verdict"]
-    rows = [
-        [
-            rank_text(each),
-            name_text(each),
-            value_text(each),
-            difference_text(each),
-            p_text(each.adjusted_p),
-            each.verdict,
-        ]
-        for each in found.standings
-    ]
+    rows = [[*_cells(each), each.verdict] for each in found.standings]
     says = told.says[0].upper() + told.says[1:]
     return f"### {told.name}\n\n{says}. Share: `{told.metric}`{whole}.\n\n{_markdown(head, rows)}"
+
+
+def _cells(each: Standing) -> list[str]:
+    return [rank_text(each), name_text(each), value_text(each), difference_text(each), p_text(each.adjusted_p)]
 
 
 def _names(condition: Condition, verdict: str) -> str:

@@ -65,10 +65,6 @@ def mean_max_speed(tally: Tally, facts: Facts) -> float:
     return float(sum(n * v for n, v in zip(agents, facts.max_speeds, strict=True)) / or_nan(agents.sum()))
 
 
-def _seconds(tally: Tally, facts: Facts) -> float:
-    return float(tally.steps.sum()) * facts.time_step
-
-
 def _fairness(tally: Tally) -> float:
     """Jain's index of the targets' shares of time watched."""
     there = tally.target_steps.sum(axis=0)

@@ -16,7 +16,6 @@ from shoal.paper.results import Claim, Figure, Reproduction, Row
 from shoal.viz.files import save_figure
 
 LARGEST_SVG = 300_000  # [B] an SVG over this size is inlined as PNG
-_DOTS = 200.0  # of the PNG files, to the inch
 
 
 def write_report(reproduction: Reproduction, out: str | Path) -> Path:

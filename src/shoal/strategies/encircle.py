@@ -22,7 +22,7 @@ from typing import Annotated, NamedTuple
 from shoal.core.kernel import kernel
 from shoal.core.units import Meters, Says, Seconds
 from shoal.strategies.contract import strategy
-from shoal.strategies.parts import station, toward
+from shoal.strategies.parts import own_station, toward
 
 
 class Encircle(NamedTuple):
@@ -40,9 +40,7 @@ class Encircle(NamedTuple):
 
 def begin(me, memory, params, draw):
     """Know the station; know nothing of a target, and take it for as fast as oneself."""
-    half_x = params.spread * me.briefing.half_x
-    half_y = params.spread * me.briefing.half_y
-    memory.station_x, memory.station_y = station(me.id, me.briefing.agents, half_x, half_y)
+    memory.station_x, memory.station_y = own_station(me, params.spread)
     memory.contact = _NEVER
     memory.speed = me.max_speed
 

@@ -7,7 +7,7 @@ from typing import Annotated, NamedTuple
 
 from shoal.core.units import Meters, Says
 from shoal.strategies.contract import strategy
-from shoal.strategies.parts import station, toward
+from shoal.strategies.parts import own_station, toward
 
 
 class LatticePursuit(NamedTuple):
@@ -19,9 +19,7 @@ class LatticePursuit(NamedTuple):
 
 def begin(me, memory, params, draw):
     """The station, known before leaving."""
-    half_x = params.spread * me.briefing.half_x
-    half_y = params.spread * me.briefing.half_y
-    memory.station_x, memory.station_y = station(me.id, me.briefing.agents, half_x, half_y)
+    memory.station_x, memory.station_y = own_station(me, params.spread)
 
 
 def decide(me, heard, memory, params, draw):

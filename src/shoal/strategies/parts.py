@@ -75,6 +75,12 @@ def inside(me, x, y):
 
 
 @kernel
+def own_station(me, spread):
+    """The agent's place in the most even cover of this share of the area's sides [m]."""
+    return station(me.id, me.briefing.agents, spread * me.briefing.half_x, spread * me.briefing.half_y)
+
+
+@kernel
 def station(i, agents, half_x, half_y):
     """Place of agent i in the most even cover of a box of +- half_x, half_y by rows [m].
 

@@ -7,14 +7,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from shoal.compiling import mark_compiled
 from shoal.core.errors import ScenarioError
 from shoal.metrics.summary import METRICS, phi_histogram
 from shoal.metrics.tally import Tally
 from shoal.record.trajectory import Trajectory
 from shoal.scenario.edit import apply
+from shoal.scenario.facts import facts_of
 from shoal.scenario.load import scenario_from
 from shoal.scenario.schema import Scenario
-from shoal.simulation import Simulation, facts_of, mark_compiled
+from shoal.simulation import Simulation
 from shoal.strategies import CATALOGUE
 from shoal.strategies.contract import RESERVED
 from shoal.transplant import move_target, remove_agent, transplant

@@ -10,8 +10,9 @@ from shoal.core.errors import ScenarioError
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.runs import chunk_steps
+from shoal.scenario.facts import facts_of
 from shoal.scenario.schema import Scenario
-from shoal.simulation import Simulation, facts_of
+from shoal.simulation import Simulation
 
 Progress = Callable[[int, int], None]
 

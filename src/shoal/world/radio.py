@@ -147,10 +147,11 @@ def begin_degree(swarm, radio, agents):
 
 @kernel
 def adapt_degree(swarm, radio, links, reports, first, last, world):
-    """Let k follow the contact: k = fewest + (most - fewest) x share of recent steps with a neighbor on target.
+    """Let k follow the contact: k = fewest + (most - fewest) x contact.
 
-    A fast target breaks contact more often, and the best k falls as the target speeds up (Kwa, Leong Kit, Bouffanais,
-    AAMAS 2020, Fig. 4): the rule needs no knowledge of the speed. `recent` fades: a step weighs exp(-age / patience).
+    Contact is the share of recent steps in which the agent was on target or heard one that was; a step weighs
+    exp(-age / patience). A fast target breaks contact more often, and the best k falls as the target speeds up (Kwa,
+    Leong Kit, Bouffanais, AAMAS 2020, Fig. 4): the rule needs no knowledge of the speed.
     """
     contact = links.off  # scratch by now
     for i in range(first, last):

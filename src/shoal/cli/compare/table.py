@@ -1,6 +1,5 @@
-"""Comparisons in a terminal."""
+"""Comparisons and leaderboards in a terminal."""
 
-import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -8,6 +7,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from shoal.cli.console import results_console
 from shoal.experiments.comparison import Comparison, Condition, Standing
 from shoal.experiments.comparison_words import (
     REFERENCES,
@@ -27,7 +27,7 @@ _Column = tuple[str, Callable[[Standing], str]]
 
 def print_comparison(comparison: Comparison, metric: str, direction: int, about: dict[str, Any]) -> None:
     """Print a table per condition, and what the verdicts mean."""
-    console = _console()
+    console = results_console()
     words = {1: "more is better", -1: "less is better", 0: "neither more nor less is better"}[direction]
     console.print(
         f"[bold]{about['scenario']}[/bold]: {about['runs']} runs of {about['steps']:,} steps, seed {about['seed']}"
@@ -60,7 +60,7 @@ def print_comparison(comparison: Comparison, metric: str, direction: int, about:
 
 def print_leaderboard(board: Leaderboard) -> None:
     """Print the ranking by score, then the shares under every condition."""
-    console, suite = _console(), board.suite
+    console, suite = results_console(), board.suite
     console.print(
         f"[bold]{suite.name}[/bold]: {suite.runs} runs of {suite.steps:,} steps under each of {len(suite.conditions)} "
         f"conditions, seed {suite.seed}, suite hash {board.hash}"
@@ -118,10 +118,3 @@ def _fill(table: Table, condition: Condition, texts: Sequence[Callable[[Standing
 def _print_notes(console: Console, family: str, condition: Condition) -> None:
     references = f" {REFERENCES}" if any(each.informed for each in condition.standings) else ""
     console.print(f"\n{family_text(family)}{references}", style="dim")
-
-
-def _console() -> Console:
-    console = Console(file=sys.stdout, highlight=False)
-    if not console.is_terminal:
-        console.width = 160  # a file or a pipe has no margin to fit
-    return console

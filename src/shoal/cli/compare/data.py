@@ -1,4 +1,4 @@
-"""Comparisons as JSON."""
+"""Comparisons and leaderboards as JSON."""
 
 import math
 from typing import Any

@@ -11,16 +11,12 @@ from shoal.cli.progress import note
 
 @contextmanager
 def store_folder(out: Path | None) -> Iterator[Path]:
-    """Yield the folder; say what an interrupt leaves in it."""
-    if out is None:
-        with tempfile.TemporaryDirectory(prefix="shoal-compare-") as folder:
-            yield Path(folder)
-        return
-    try:
+    """Yield the folder."""
+    if out:
         yield out
-    except KeyboardInterrupt:
-        note(f"what is done is in {out}; the same command goes on from there")
-        raise
+        return
+    with tempfile.TemporaryDirectory(prefix="shoal-compare-") as folder:
+        yield Path(folder)
 
 
 def tell_failures(rows: Iterable[dict[str, Any] | None]) -> None:

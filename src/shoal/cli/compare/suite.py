@@ -6,7 +6,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from shoal.cli.compare_store import store_folder, tell_failures
+from shoal.cli.compare.runs import store_folder, tell_failures
 from shoal.cli.progress import note
 from shoal.cli.sweep_progress import sweep_progress
 
@@ -25,10 +25,10 @@ def compare_suite(
     as_json: bool,
 ) -> None:
     """Run what is missing of a suite, and print its leaderboard."""
-    from shoal.cli.compare_data import leaderboard_data
-    from shoal.cli.compare_figure import leaderboard_figure
-    from shoal.cli.compare_table import print_leaderboard
-    from shoal.experiments.compiling import compiled_first
+    from shoal.cli.compare.data import leaderboard_data
+    from shoal.cli.compare.figure import leaderboard_figure
+    from shoal.cli.compare.table import print_leaderboard
+    from shoal.experiments.compiled_first import compiled_first
     from shoal.experiments.contenders import contenders
     from shoal.experiments.executors import in_threads
     from shoal.experiments.leaderboard import make_leaderboard
@@ -46,7 +46,7 @@ def compare_suite(
         note(f"{title} ({titles.index(title) + 1} of {len(titles)})")
 
     begun = time.monotonic()
-    with store_folder(out) as folder, sweep_progress() as report:
+    with store_folder(out) as folder, sweep_progress(out) as report:
         execute = compiled_first(in_threads(jobs), note)
         found = run_suite(suite, everybody, folder, executor=execute, begin=begin, report=report)
     tell_failures(row for strategies in found.values() for rows in strategies.values() for row in rows)

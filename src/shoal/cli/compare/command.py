@@ -65,8 +65,9 @@ def compare(
         Print one JSON object and nothing else.
     """
     load_compiler()
-    from shoal.cli.compare_strategies import compare_strategies
-    from shoal.cli.compare_suite import compare_suite
+    from shoal.cli.compare.strategies import compare_strategies
+    from shoal.cli.compare.suite import compare_suite
+    from shoal.cli.options import check_positive
     from shoal.core.errors import ScenarioError
     from shoal.experiments.paired import need_scipy
 
@@ -75,9 +76,7 @@ def compare(
         from shoal.viz.files import figure_format
 
         figure_format(figure)  # refused before the runs, not after
-    for name, number in (("--runs", runs), ("--steps", steps), ("--jobs", jobs)):
-        if number is not None and number <= 0:
-            raise ScenarioError(name, f"is {number}", "give a number above 0")
+    check_positive(runs=runs, steps=steps, jobs=jobs)
     if not suite:
         if markdown:
             raise ScenarioError("--markdown", "needs --suite", "add --suite arena; --json gives other comparisons")

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from shoal.cli.compare_store import store_folder, tell_failures
+from shoal.cli.compare.runs import store_folder, tell_failures
 from shoal.cli.progress import note
 from shoal.cli.sweep_progress import sweep_progress
 
@@ -30,29 +30,28 @@ def compare_strategies(
     as_json: bool,
 ) -> None:
     """Run what is missing, and print a table per condition."""
-    from shoal.cli.compare_data import comparison_data
-    from shoal.cli.compare_figure import comparison_figure
-    from shoal.cli.compare_table import print_comparison
+    from shoal.cli.compare.data import comparison_data
+    from shoal.cli.compare.figure import comparison_figure
+    from shoal.cli.compare.table import print_comparison
+    from shoal.cli.options import given_changes
     from shoal.core.errors import ScenarioError
     from shoal.experiments.cells import make_cells
     from shoal.experiments.compare import comparison_design, run_comparison, values_of
     from shoal.experiments.comparison import compare, direction_of
-    from shoal.experiments.compiling import compiled_first
+    from shoal.experiments.compiled_first import compiled_first
     from shoal.experiments.contenders import contenders
     from shoal.experiments.design import parse_vary
     from shoal.experiments.executors import in_threads
     from shoal.metrics.summary import METRICS
-    from shoal.scenario.edit import parse_assignment
 
     if metric not in METRICS:
         raise ScenarioError(f"--metric {metric}", "is no metric", f"there are: {', '.join(METRICS)}")
     everybody = contenders(named)
     baseline = _baseline(baseline, [each.name for each in everybody])
-    changes: dict[str, Any] = dict(map(parse_assignment, assignments))
-    changes |= {name: value for name, value in (("steps", steps), ("seed", seed)) if value is not None}
+    changes = given_changes(assignments, steps=steps, seed=seed)
     design = comparison_design(scenario, everybody, runs or RUNS, dict(map(parse_vary, vary)))
     shown = make_cells(design, changes)[0].scenario
-    with store_folder(out) as folder, sweep_progress() as report:
+    with store_folder(out) as folder, sweep_progress(out) as report:
         execute = compiled_first(in_threads(jobs), note)
         found = run_comparison(design, everybody, folder, changes=changes, executor=execute, report=report)
     tell_failures(row for _, strategies in found for rows in strategies.values() for row in rows)
