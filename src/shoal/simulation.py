@@ -1,15 +1,12 @@
 """Simulation: one run of a scenario that can be advanced, looked at, saved and resumed at any step."""
 
 import math
-import re
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
 
 import numpy as np
-from numba.core.errors import NumbaError
 
 from shoal.core.agents import NEVER, REPORT_BYTES, Minds, Swarm, as_records, new_swarm
 from shoal.core.errors import RecordError, ScenarioError, StrategyError
@@ -24,6 +21,7 @@ from shoal.metrics.tally import new_tally
 from shoal.record.trajectory import Trajectory
 from shoal.scenario.crew import Crew, crew_of
 from shoal.scenario.schema import Scenario
+from shoal.scenario.strategy_errors import strategy_errors
 from shoal.scenario.targets import (
     DriftTarget,
     EvasiveTarget,
@@ -63,7 +61,7 @@ class Simulation:
     Raises
     ------
     TrackError : a recorded track cannot be used
-    StrategyError : the strategy cannot be compiled
+    StrategyError : the strategy cannot be compiled, or raises an error
     """
 
     def __init__(self, scenario: Scenario, run: int = 0) -> None:
@@ -99,7 +97,7 @@ class Simulation:
     def begin(self) -> None:
         """Set up every agent's memory, as its strategy does before the first step."""
         here, held = put(self._stage(self._new_frames(0)))
-        with _compiling(self.crew):
+        with strategy_errors(self.crew):
             self._begin(here, self.minds, self.crew.params, self._seed, self.run)
         del held
 
@@ -115,7 +113,7 @@ class Simulation:
         kept = count_frames(self.number, last, every, tail)
         frames = self._new_frames(kept)
         here, held = put(self._stage(frames))
-        with _compiling(self.crew):
+        with strategy_errors(self.crew):
             self._rollout(
                 here,
                 self.minds,
@@ -219,26 +217,6 @@ class Simulation:
             target_y=np.empty((count, targets)),
             target_present=np.empty((count, targets), np.bool_),
         )
-
-
-@contextmanager
-def _compiling(strategy: Crew) -> Iterator[None]:
-    """Turn the compiler's pages about a user's strategy into one error."""
-    try:
-        yield
-    except NumbaError as error:
-        if strategy.builtin:
-            raise
-        told = [line.strip() for line in str(error).splitlines() if line.strip()]
-        reason = next(
-            (line for line in reversed(told) if re.search("rror|nknown|not defined|resolve|nvalid", line)), told[0]
-        )
-        lines = re.findall(re.escape(strategy.source) + r'[",(: ]+(?:line )?(\d+)', str(error))
-        raise StrategyError(
-            ":".join([strategy.source, *lines[-1:]]),
-            f"strategy {strategy.name!r} cannot be compiled: {reason}",
-            "kernels take numbers, math, branches and loops; see docs/how-to/own-strategy.md",
-        ) from error
 
 
 def facts_of(scenario: Scenario) -> Facts:
