@@ -44,7 +44,7 @@ class TestExamples:
         assert shown == TARGETS.keys() - {"track"}  # which needs a file
 
     def test_50_then_25_then_75(self):
-        frames = Simulation(load(ROOT / "examples/robustness.toml")).advance(3000, every=500)
+        frames = Simulation(load(ROOT / "examples/robustness.toml")).advance(9000, every=1500)
         assert frames.alive.sum(axis=1).tolist() == [50, 50, 25, 25, 75, 75]
 
 

@@ -1,14 +1,8 @@
-"""The engine compiled for a strategy: its entry points, whether they are cached, and what is refused."""
+"""The engine compiled for a strategy: its entry points, and whether they are cached."""
 
-import re
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from numba.core.errors import NumbaError
-
-from shoal.core.errors import StrategyError
 from shoal.core.kernel import cache_folder, uncached
 from shoal.engine.rollout import begin_run, rollout
 from shoal.scenario.crew import Crew, crew_of
@@ -25,26 +19,6 @@ def entry_points(crew: Crew) -> tuple[Any, Any]:
     if kind not in _UNCACHED:
         _UNCACHED[kind] = (uncached(begin_run), uncached(rollout))
     return _UNCACHED[kind]
-
-
-@contextmanager
-def compiler_errors(crew: Crew) -> Iterator[None]:
-    """Turn the compiler's pages about a user's strategy into one error."""
-    try:
-        yield
-    except NumbaError as error:
-        if crew.builtin:
-            raise
-        told = [line.strip() for line in str(error).splitlines() if line.strip()]
-        reason = next(
-            (line for line in reversed(told) if re.search("rror|nknown|not defined|resolve|nvalid", line)), told[0]
-        )
-        lines = re.findall(re.escape(crew.source) + r'[",(: ]+(?:line )?(\d+)', str(error))
-        raise StrategyError(
-            ":".join([crew.source, *lines[-1:]]),
-            f"strategy {crew.name!r} cannot be compiled: {reason}",
-            "kernels take numbers, math, branches and loops; see docs/how-to/own-strategy.md",
-        ) from error
 
 
 def needs_compiling(scenario: Scenario) -> bool:

@@ -7,7 +7,7 @@ from zipfile import BadZipFile
 import numpy as np
 
 from shoal.build import build_radio, build_swarm, build_targets, build_world, losses_of, open_tracks
-from shoal.compiling import compiler_errors, entry_points
+from shoal.compiling import entry_points
 from shoal.core.agents import NEVER, Minds, as_records
 from shoal.core.errors import RecordError, ScenarioError, StrategyError
 from shoal.core.files import whole_file
@@ -19,6 +19,7 @@ from shoal.metrics.tally import new_tally
 from shoal.record.trajectory import Trajectory
 from shoal.scenario.crew import crew_of
 from shoal.scenario.schema import Scenario
+from shoal.scenario.strategy_errors import strategy_errors
 from shoal.version import RESULTS_VERSION
 from shoal.world.placement import PLACES
 
@@ -45,7 +46,7 @@ class Simulation:
     Raises
     ------
     TrackError : a recorded track cannot be used
-    StrategyError : the strategy cannot be compiled
+    StrategyError : the strategy cannot be compiled, or raises an error
     """
 
     def __init__(self, scenario: Scenario, run: int = 0) -> None:
@@ -81,7 +82,7 @@ class Simulation:
     def begin(self) -> None:
         """Set up every agent's memory, as its strategy does before the first step."""
         here, held = put(self._stage(self._new_frames(0)))
-        with compiler_errors(self.crew):
+        with strategy_errors(self.crew):
             self._begin(here, self.minds, self.crew.params, self._seed, self.run)
         del held
 
@@ -97,7 +98,7 @@ class Simulation:
         kept = count_frames(self.number, last, every, tail)
         frames = self._new_frames(kept)
         here, held = put(self._stage(frames))
-        with compiler_errors(self.crew):
+        with strategy_errors(self.crew):
             self._rollout(
                 here,
                 self.minds,

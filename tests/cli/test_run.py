@@ -63,11 +63,49 @@ class TestRun:
         assert list(json.loads(out)["fleets"]) == ["BoB-0"]
 
 
+class TestTable:
+    """Fits a terminal of 80 columns: a row is a line."""
+
+    SCENARIO = ("oceans2020", "--steps", 1200, "--set", "losses=[{step=1000,count=25}]")
+
+    def test_no_row_is_wrapped_or_cut(self, capsys, monkeypatch):
+        lines = {}
+        for columns in (80, 200):
+            monkeypatch.setenv("COLUMNS", str(columns))
+            _, out, _ = shoal(capsys, "run", *self.SCENARIO, "--set", "network.loss=0.1")
+            lines[columns] = [line.rstrip() for line in out.splitlines()]
+        assert max(map(len, lines[80])) <= 80
+        assert lines[80][:-1] == lines[200][:-1]  # but for the seconds that it took
+
+    def test_fleets_and_changes_have_rows_under_a_heading(self, capsys):
+        _, out, _ = shoal(capsys, "run", *self.SCENARIO)
+        headings = ["fleet BoB-1", "fleet BoB-0", "step 1,000: 25 lost", "phi histogram, agents"]
+        begins = [out.index(heading) for heading in headings]
+        assert begins == sorted(begins)
+        assert "  recovery" in out[begins[2] :]
+
+    def test_what_differs_between_fleets_is_told_of_each(self, capsys):
+        _, out, _ = shoal(
+            capsys, "run", "oceans2020", "--steps", 50, "--set", "fleets.BoB-1.strategy=lattice",
+            "--set", "fleets.BoB-1.neighbors=all", "--set", f"fleets.BoB-1.name={'far ' * 10}",
+        )  # fmt: skip
+        told = " ".join(out.split())
+        assert "strategy lattice (far" in told
+        assert "knn-pso (BoB-0)" in told
+        assert "20 (BoB-0)" in told
+        assert "…" not in "".join(line for line in out.splitlines() if not line.startswith("fleet"))
+
+    def test_those_who_join_later_are_told_apart(self, capsys):
+        _, out, _ = shoal(capsys, "run", "aamas2020", "--steps", 50, "--set", 'joins=[{step=20,count=9,fleet="BoB-0"}]')
+        assert "9 of them join later" in out
+
+
 BAD = [
     (["run", "ocean2020"], "did you mean 'oceans2020'"),
     (["run", "missing.toml"], "no preset and no file"),
     (["run", "oceans2020", "-k", "50"], "can hear at most 49"),
-    (["run", "oceans2020", "-k", "x"], "int"),
+    (["run", "oceans2020", "-k", "x"], "integer"),
+    (["run", "oceans2020", "-k", "3.5"], "integer"),
     (["run", "oceans2020", "--target-speed=-3"], "targets.0.speed: -3"),
     (["run", "oceans2020", "--target-speed", "fast"], "is no quantity in m/s"),
     (["run", "oceans2020", "--set", "network.neighbours=3"], "did you mean 'neighbors'"),

@@ -88,11 +88,11 @@ class TestPeaks:
 
 
 class TestFluctuationAndHeading:
-    def test_c7_judges_the_normalised_xi_and_tells_the_other(self):
+    def test_c7_judges_the_normalized_xi_and_tells_the_other(self):
         truth = {"xi": lambda fast, k, speed: 0.8 - 0.002 * fast, "xi_raw": lambda fast, k, speed: 0.8 + 0.02 * fast}
         claim = claims.c7(made(truth, points=GRID))
         assert claim.verdict == "does not hold"
-        assert "not normalised [m/s], true in 6 of 6" in claim.measured
+        assert "not normalized [m/s], true in 6 of 6" in claim.measured
 
     def test_c8_holds_where_more_agents_head_for_the_target(self):
         assert claims.c8(made({})).verdict == "holds"  # 0.3 k of them, by construction

@@ -17,8 +17,9 @@ def edited_table(
         raise ScenarioError("--track-id", "needs --target-track", "name the file that holds the track")
     table = read_table(source)
     wanted = {name: value for name, value in changes.items() if value is not None}
-    if isinstance(speed := wanted.get("target-speed"), str):
-        wanted["target-speed"] = parse_value(speed)
+    for name in ("target-speed", "neighbors"):
+        if isinstance(text := wanted.get(name), str):
+            wanted[name] = parse_value(text)
     if track:
         # what the track decides, an option overrides
         late: dict[str, Any] = {name: wanted.pop(name) for name in ("steps", "target-speed") if name in wanted}

@@ -16,7 +16,7 @@ def run(
     scenario: str,
     /,
     *,
-    neighbors: Annotated[int | None, Parameter(name=["--neighbors", "-k"])] = None,
+    neighbors: Annotated[str | None, Parameter(name=["--neighbors", "-k"])] = None,
     fast: int | None = None,
     agents: int | None = None,
     target_speed: str | None = None,
@@ -40,7 +40,7 @@ def run(
     scenario
         A preset's name (see `shoal presets`) or a TOML file.
     neighbors
-        k: every agent hears its k nearest others.
+        k: every agent hears its k nearest others; or all.
     fast
         Number of agents of the fastest fleet; the slowest fleet gives or takes the difference.
     agents

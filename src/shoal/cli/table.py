@@ -2,9 +2,12 @@
 
 import math
 import sys
+from collections.abc import Callable, Mapping
+from typing import Any
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from shoal.metrics.summary import METRICS
 from shoal.record.record import Record
@@ -13,13 +16,15 @@ from shoal.record.statistics import Estimate
 _LABELS = {
     "time_on_target": "time on target",
     "xi": "velocity fluctuation Xi",
-    "xi_raw": "Xi, not normalised",
+    "xi_raw": "Xi, not normalized",
     "response": "response",
     "engaged": "engaged agents",
     "stationary": "stationary agents",
     "target_present": "target there",
 }
 _OF_SEVERAL_TARGETS = ("targets_observed", "fairness")
+_OF_FLEETS = ("xi_raw", "stationary", "speed", "power")
+_OF_TARGETS = ("time_on_target", "first_detection", "reacquisition")
 
 
 def print_record(record: Record) -> None:
@@ -27,20 +32,22 @@ def print_record(record: Record) -> None:
     console = Console(file=sys.stdout, highlight=False)
     scenario, facts = record.scenario, record.facts
     fleets = " + ".join(
-        f"{count} {name} ({speed:g} m/s)"
+        f"{count} {name} ({speed:g} m/s{_joining(scenario, name)})"
         for name, count, speed in zip(facts.fleets, facts.counts, facts.max_speeds, strict=True)
     )
     targets = ", ".join(_target(target) for target in scenario["targets"])
     runs = len(record.tallies)
-    console.print(f"[bold]{scenario['name']}[/bold]: {fleets}, k = {scenario['network']['neighbors']}")
-    console.print(f"strategy {scenario['strategy']['name']}; target {targets}")
+    console.print(f"[bold]{scenario['name']}[/bold]: {fleets}, k = {_degree(scenario)}")
+    strategy = _by_fleet(scenario, lambda fleet: (fleet["strategy"] or scenario["strategy"])["name"])
+    console.print(f"strategy {strategy}; target {targets}")
     console.print(
         f"{runs} run{'s' * (runs > 1)} of {scenario['steps']:,} steps of {scenario['time_step']:g} s, "
         f"seed {record.provenance['seed']}, scenario {record.provenance['scenario_hash']}"
     )
     table = Table(box=None, padding=(0, 2, 0, 0))
     for title, justify in (("", "left"), ("mean", "right"), ("95 % interval", "right"), ("unit", "left")):
-        table.add_column(title, justify=justify)  # type: ignore[arg-type]
+        width = None if title else 28  # of labels: long names of fleets are cut, not numbers
+        table.add_column(title, justify=justify, no_wrap=True, max_width=width)  # type: ignore[arg-type]
     for name, metric in METRICS.items():
         if len(scenario["targets"]) > 1 or name not in _OF_SEVERAL_TARGETS:
             table.add_row(_label(name), *_cells(record.estimate(name)), _unit(metric.unit))
@@ -53,19 +60,52 @@ def print_record(record: Record) -> None:
 
 
 def _add_parts(table: Table, record: Record) -> None:
-    """Rows of every fleet, every target and every change of the swarm, where there are several."""
-    if len(record.facts.fleets) > 1:
-        for name, unit in (("xi_raw", "m/s"), ("stationary", ""), ("speed", "m/s"), ("power", "m^3/s^3")):
-            for fleet, value in record.fleet_estimate(name).items():
-                table.add_row(f"  {_label(name)}, {fleet}", *_cells(value), unit)
+    """Rows of every fleet, every target and every change of the swarm, where there are several; under a heading each."""
+    fleets = record.facts.fleets if len(record.facts.fleets) > 1 else ()
+    by_fleet = {name: record.fleet_estimate(name) for name in _OF_FLEETS} if fleets else {}
+    for fleet in fleets:
+        table.add_row(Text(f"fleet {fleet}"))
+        for name, values in by_fleet.items():
+            table.add_row(f"  {_label(name)}", *_cells(values[fleet]), _unit(METRICS[name].unit))
     targets = record.target_estimates()
-    for number, target in enumerate(targets if len(targets) > 1 else []):
-        for name in ("time_on_target", "first_detection", "reacquisition"):
-            table.add_row(f"  {_label(name)}, target {number + 1}", *_cells(target[name]), _unit(METRICS[name].unit))
+    for number, target in enumerate(targets if len(targets) > 1 else [], 1):
+        table.add_row(f"target {number}")
+        for name in _OF_TARGETS:
+            table.add_row(f"  {_label(name)}", *_cells(target[name]), _unit(METRICS[name].unit))
     for step, change in zip(record.changes(), record.robustness(), strict=True):
+        table.add_row(f"step {step:,}: {_change(record, step)}")
         for name in ("before", "during", "after"):
-            table.add_row(f"  time on target {name} step {step:,}", *_cells(change[name]), "")
-        table.add_row(f"  recovery after step {step:,}", *_cells(change["recovery"]), "s")
+            table.add_row(f"  time on target {name}", *_cells(change[name]), "")
+        table.add_row("  recovery", *_cells(change["recovery"]), "s")
+
+
+def _degree(scenario: Mapping[str, Any]) -> str:
+    network = scenario["network"]
+    if adaptive := network["adaptive"]:
+        return f"{adaptive['fewest']} to {adaptive['most']} (adaptive)"
+    return _by_fleet(scenario, lambda fleet: fleet["neighbors"] or network["neighbors"])
+
+
+def _by_fleet(scenario: Mapping[str, Any], value: Callable[[Mapping[str, Any]], Any]) -> str:
+    """What all fleets have alike, or what each has."""
+    values = {fleet["name"]: str(value(fleet)) for fleet in scenario["fleets"]}
+    if len(set(values.values())) == 1:
+        return next(iter(values.values()))
+    return ", ".join(f"{each} ({name})" for name, each in values.items())
+
+
+def _joining(scenario: Mapping[str, Any], fleet: str) -> str:
+    count = sum(each["count"] for each in scenario["joins"] if each["fleet"] == fleet)
+    return f"; {count} of them join later" if count else ""
+
+
+def _change(record: Record, step: int) -> str:
+    """How many agents are lost and join at a step."""
+    counts = {
+        words: sum(each["count"] for each in record.scenario[kind] if each["step"] == step)
+        for kind, words in (("losses", "lost"), ("joins", "join"))
+    }
+    return ", ".join(f"{count} {words}" for words, count in counts.items() if count)
 
 
 def _label(name: str) -> str:
@@ -77,8 +117,9 @@ def _unit(unit: str) -> str:
 
 
 def _cells(value: Estimate) -> tuple[str, str]:
-    mean = f"{value.mean:.4f}" if math.isfinite(value.mean) else "none"
-    return mean, f"{value.ci95[0]:.4f} .. {value.ci95[1]:.4f}" if value.ci95 else "-"
+    decimals = 4 if not abs(value.mean) >= 100 else 1
+    mean = f"{value.mean:.{decimals}f}" if math.isfinite(value.mean) else "none"
+    return mean, " .. ".join(f"{end:.{decimals}f}" for end in value.ci95) if value.ci95 else "-"
 
 
 def _target(target: dict[str, object]) -> str:

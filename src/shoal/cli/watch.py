@@ -20,7 +20,7 @@ def watch(
     /,
     *,
     against: str | None = None,
-    neighbors: Annotated[int | None, Parameter(name=["--neighbors", "-k"])] = None,
+    neighbors: Annotated[str | None, Parameter(name=["--neighbors", "-k"])] = None,
     fast: int | None = None,
     agents: int | None = None,
     target_speed: str | None = None,

@@ -85,7 +85,7 @@ METRICS: dict[str, Metric] = {
         lambda t, f: _share(t.fluctuation, t.steps) / _agents(t) / mean_max_speed(t, f),
     ),
     "xi_raw": Metric(
-        "m/s", "velocity fluctuation, not normalised", lambda t, f: _share(t.fluctuation, t.steps) / _agents(t)
+        "m/s", "velocity fluctuation, not normalized", lambda t, f: _share(t.fluctuation, t.steps) / _agents(t)
     ),
     "response": Metric(
         "unit/step",

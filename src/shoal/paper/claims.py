@@ -134,13 +134,13 @@ def c6(rows: Sequence[Row]) -> Claim:
 
 
 def c7(rows: Sequence[Row]) -> Claim:
-    """Cases: rise of the normalised Xi from no to all fast buoys (least squares), at each k up to 30 and speed."""
+    """Cases: rise of the normalized Xi from no to all fast buoys (least squares), at each k up to 30 and speed."""
 
     def cases_of(metric: Metric) -> list[Case]:
         shares = _shares([row for row in rows if row["neighbors"] <= 30], metric)
         return rising({place: AGENTS * slopes(each) for place, each in shares.items()})
 
-    note = f"; not normalised [m/s], {counted(cases_of('xi_raw'))}"
+    note = f"; not normalized [m/s], {counted(cases_of('xi_raw'))}"
     return _claim("C7", cases_of("xi"), "the least rise is {}", "xi_share", "1", digits=3, note=note)
 
 

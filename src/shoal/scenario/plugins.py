@@ -4,6 +4,7 @@ import hashlib
 import importlib.util
 import sys
 from pathlib import Path
+from types import TracebackType
 from typing import Any
 
 from shoal.core.errors import StrategyError
@@ -117,20 +118,18 @@ def _execute(path: Path, module_name: str) -> None:
     except StrategyError as error:
         where, problem, fix = error.args
         raise StrategyError(f"{path} {where}", problem, fix) from error
-    except Exception as error:
-        line = _line_in(error, path)
+    except (Exception, SystemExit) as error:
+        line = error.lineno if isinstance(error, SyntaxError) else line_in(error.__traceback__, path)
         raise StrategyError(
             f"{path}:{line}" if line else str(path), f"{type(error).__name__}: {error}", "mend it"
         ) from error
 
 
-def _line_in(error: BaseException, path: Path) -> int | None:
-    """Line of the user's file where an exception arose."""
-    if isinstance(error, SyntaxError):
-        return error.lineno
-    line, trace = None, error.__traceback__
+def line_in(trace: TracebackType | None, file: str | Path) -> int | None:
+    """The innermost line of a file that a traceback goes through."""
+    line = None
     while trace:
-        if trace.tb_frame.f_code.co_filename == str(path):
+        if trace.tb_frame.f_code.co_filename == str(file):
             line = trace.tb_lineno
         trace = trace.tb_next
     return line

@@ -59,6 +59,13 @@ RESERVED = ("name", "file", "source")  # what else a [strategy] table says
 TEAM = "team"  # its params hold other strategies' params; scenarios make it from fleets.strategy, see team.py
 CATALOGUE: dict[str, Strategy] = {}  # by name; the last one registered under a name
 _OWNERS: dict[type[Any], Strategy] = {}  # by class of parameters; all that were ever registered
+ARGUMENTS = {  # of the functions of a strategy
+    "decide": ("me", "heard", "memory", "params", "draw"),
+    "begin": ("me", "memory", "params", "draw"),
+    "leads": ("other", "params"),
+    "priority": ("me", "other", "params"),
+    "influence": ("me", "other", "params"),
+}
 
 
 def strategy(
@@ -93,7 +100,7 @@ def strategy(
     Raises
     ------
     StrategyError : params are no NamedTuple, belong to another strategy, or one has no default; a field is told that
-        is not remembered
+        is not remembered; a function takes other arguments
     """
 
     def register(decide: Callable[..., Any]) -> Callable[..., Any]:
@@ -117,6 +124,11 @@ def strategy(
         untold = [field for field in tells if field not in (memory or {})]
         if untold:
             raise StrategyError(where, f"tells {untold[0]!r}, which is not in memory", "add it to memory={...}")
+        given = {"decide": decide, "begin": begin, "leads": leads, "priority": priority, "influence": influence}
+        for role, function in given.items():
+            if function and (count := _arguments(function)) != len(ARGUMENTS[role]):
+                wanted = f"({', '.join(ARGUMENTS[role])})"
+                raise StrategyError(where, f"{role} takes {count} arguments", f"let it take {wanted}")
         remembered = dict(memory or {})
         compiled = kernel(decide)
         plain: Any = getattr(decide, "py_func", decide)
@@ -142,6 +154,11 @@ def strategy(
         return compiled
 
     return register
+
+
+def _arguments(function: Callable[..., Any]) -> int:
+    plain: Any = getattr(function, "py_func", function)
+    return int(plain.__code__.co_argcount)
 
 
 @kernel

@@ -30,7 +30,8 @@ def print_comparison(comparison: Comparison, metric: str, direction: int, about:
     console = results_console()
     words = {1: "more is better", -1: "less is better", 0: "neither more nor less is better"}[direction]
     console.print(
-        f"[bold]{about['scenario']}[/bold]: {about['runs']} runs of {about['steps']:,} steps, seed {about['seed']}"
+        f"[bold]{about['scenario']}[/bold]: {about['runs']} run{'s' * (about['runs'] > 1)} of {about['steps']:,} steps, "
+        f"seed {about['seed']}"
     )
     unit = METRICS[metric].unit
     console.print(
