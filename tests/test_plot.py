@@ -95,7 +95,7 @@ class TestAxesOfOnesOwn:
 
     def test_curves_too(self, axes):
         assert plot.curves(rows(), axes=axes) is axes.figure
-        assert axes.get_xlabel() == "neighbors"
+        assert axes.get_xlabel() == "neighbors, k"
 
 
 class TestSnapshot:
@@ -185,7 +185,7 @@ class TestCurves:
     def test_a_dataframe_is_rows_too(self):
         pandas = pytest.importorskip("pandas", reason="pandas is not installed")
         (axes,) = plot.curves(pandas.DataFrame(rows()), x="fast").axes
-        assert axes.get_xlabel() == "fast"
+        assert axes.get_xlabel() == "fast agents"
 
     def test_words_are_categories(self):
         (axes,) = plot.curves(

@@ -36,6 +36,7 @@ from shoal.viz.style import new_figure, style
 from shoal.viz.summary import summary_figure
 from shoal.viz.sweep import Curve, draw_sweep, sweep_page
 from shoal.viz.trajectory_map import draw_trajectory_map
+from shoal.viz.words import field_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -201,7 +202,7 @@ def curves(
         curve.high.append(group[f"{y}_high"])
     if not made:
         raise ScenarioError("results", "hold no run that ended well", "see the column error, mend it, run them again")
-    labels = x.replace("_", " "), y.replace("_", " "), METRICS[y].unit
+    labels = field_words(x), y.replace("_", " "), METRICS[y].unit
     if axes is None:
         return sweep_page(list(made.values()), *labels)
     return _drawn(axes, (_CHART, _RIGHT, _TOP), lambda into: draw_sweep(into, list(made.values()), *labels))

@@ -60,7 +60,7 @@ def print_record(record: Record) -> None:
 
 
 def _add_parts(table: Table, record: Record) -> None:
-    """Rows of every fleet, every target and every change of the swarm, where there are several; under a heading each."""
+    """Rows of every fleet, target and change of the swarm, where there are several; under a heading each."""
     fleets = record.facts.fleets if len(record.facts.fleets) > 1 else ()
     by_fleet = {name: record.fleet_estimate(name) for name in _OF_FLEETS} if fleets else {}
     for fleet in fleets:

@@ -24,6 +24,14 @@ def number(value: float, decimals: int) -> str:
     return f"{value:.{decimals}f}".replace("-", "\u2212") if math.isfinite(value) else "unknown"
 
 
+def field_words(field: str) -> str:
+    """What an axis calls a varied field of a scenario: target speed [m/s]."""
+    return _FIELDS.get(field) or field.replace("_", " ")
+
+
+_FIELDS = {"target_speed": "target speed [m/s]", "neighbors": "neighbors, k", "fast": "fast agents"}
+
+
 def shorten(text: str, letters: int) -> str:
     """A text on one line, cut to so many letters; the cut is marked."""
     text = " ".join(text.split())

@@ -11,6 +11,7 @@ from shoal.experiments.leaderboard import Leaderboard
 from shoal.metrics.summary import METRICS
 from shoal.viz.comparison import Bar, Panel, bars_figure, curves_figure
 from shoal.viz.sweep import Curve
+from shoal.viz.words import field_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -23,7 +24,7 @@ def comparison_figure(comparison: Comparison, metric: str) -> "Figure":
     points = [each.point for each in comparison.conditions]
     if len(points) > 1 and all(len(point) == 1 and _is_number(*point.values()) for point in points):
         field = next(iter(points[0]))
-        return curves_figure(_curves(comparison, field), field.replace("_", " "), label, LATTICE, _informed(comparison))
+        return curves_figure(_curves(comparison, field), field_words(field), label, LATTICE, _informed(comparison))
     return bars_figure(_panels(comparison.conditions, _order(comparison.conditions)), label, LATTICE)
 
 

@@ -29,10 +29,8 @@ def print_comparison(comparison: Comparison, metric: str, direction: int, about:
     """Print a table per condition, and what the verdicts mean."""
     console = results_console()
     words = {1: "more is better", -1: "less is better", 0: "neither more nor less is better"}[direction]
-    console.print(
-        f"[bold]{about['scenario']}[/bold]: {about['runs']} run{'s' * (about['runs'] > 1)} of {about['steps']:,} steps, "
-        f"seed {about['seed']}"
-    )
+    runs = f"{about['runs']} run{'s' * (about['runs'] > 1)}"
+    console.print(f"[bold]{about['scenario']}[/bold]: {runs} of {about['steps']:,} steps, seed {about['seed']}")
     unit = METRICS[metric].unit
     console.print(
         f"{metric.replace('_', ' ')}{'' if unit == '1' else f' [{unit}]'}: {METRICS[metric].sentence}; {words}"
