@@ -103,9 +103,7 @@ class TestTable:
         assert "…" not in "".join(line for line in out.splitlines() if not line.startswith("fleet"))
 
     def test_those_who_join_later_are_told_apart(self, capsys):
-        _, out, _ = shoal(
-            capsys, "run", "aamas2020", "--steps", 50, "--set", 'joins=[{step=20,count=9,fleet="BoB-0"}]'
-        )
+        _, out, _ = shoal(capsys, "run", "aamas2020", "--steps", 50, "--set", 'joins=[{step=20,count=9,fleet="BoB-0"}]')
         assert "9 of them join later" in out
 
 

@@ -30,8 +30,8 @@ def print_comparison(comparison: Comparison, metric: str, direction: int, about:
     console = _console()
     words = {1: "more is better", -1: "less is better", 0: "neither more nor less is better"}[direction]
     console.print(
-        f"[bold]{about['scenario']}[/bold]: {about['runs']} run{'s' * (about['runs'] > 1)} of {about['steps']:,} steps, "
-        f"seed {about['seed']}"
+        f"[bold]{about['scenario']}[/bold]: {about['runs']} run{'s' * (about['runs'] > 1)} "
+        f"of {about['steps']:,} steps, seed {about['seed']}"
     )
     unit = METRICS[metric].unit
     console.print(
@@ -76,7 +76,7 @@ def print_leaderboard(board: Leaderboard) -> None:
     console.print(_table(board.overall, columns))
     console.print("\nshare under each condition; + better, − worse than standing still; no sign: no difference shown\n")
     console.print(_shares(board))
-    family = f"the {board.score.tests} comparisons of scores together, and for the {board.shares.tests} of shares"
+    family = f"all comparisons of scores ({board.score.tests}) together, and for all of shares ({board.shares.tests})"
     _print_notes(console, family, board.overall)
 
 
