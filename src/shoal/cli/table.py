@@ -2,7 +2,7 @@
 
 import math
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from rich.console import Console
@@ -10,6 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from shoal.metrics.summary import METRICS
+from shoal.record.choices import degree_text, strategy_text
 from shoal.record.record import Record
 from shoal.record.statistics import Estimate
 
@@ -37,9 +38,8 @@ def print_record(record: Record) -> None:
     )
     targets = ", ".join(_target(target) for target in scenario["targets"])
     runs = len(record.tallies)
-    console.print(f"[bold]{scenario['name']}[/bold]: {fleets}, k = {_degree(scenario)}")
-    strategy = _by_fleet(scenario, lambda fleet: (fleet["strategy"] or scenario["strategy"])["name"])
-    console.print(f"strategy {strategy}; target {targets}")
+    console.print(f"[bold]{scenario['name']}[/bold]: {fleets}, k = {degree_text(scenario)}")
+    console.print(f"strategy {strategy_text(scenario)}; target {targets}")
     console.print(
         f"{runs} run{'s' * (runs > 1)} of {scenario['steps']:,} steps of {scenario['time_step']:g} s, "
         f"seed {record.provenance['seed']}, scenario {record.provenance['scenario_hash']}"
@@ -77,21 +77,6 @@ def _add_parts(table: Table, record: Record) -> None:
         for name in ("before", "during", "after"):
             table.add_row(f"  time on target {name}", *_cells(change[name]), "")
         table.add_row("  recovery", *_cells(change["recovery"]), "s")
-
-
-def _degree(scenario: Mapping[str, Any]) -> str:
-    network = scenario["network"]
-    if adaptive := network["adaptive"]:
-        return f"{adaptive['fewest']} to {adaptive['most']} (adaptive)"
-    return _by_fleet(scenario, lambda fleet: fleet["neighbors"] or network["neighbors"])
-
-
-def _by_fleet(scenario: Mapping[str, Any], value: Callable[[Mapping[str, Any]], Any]) -> str:
-    """What all fleets have alike, or what each has."""
-    values = {fleet["name"]: str(value(fleet)) for fleet in scenario["fleets"]}
-    if len(set(values.values())) == 1:
-        return next(iter(values.values()))
-    return ", ".join(f"{each} ({name})" for name, each in values.items())
 
 
 def _joining(scenario: Mapping[str, Any], fleet: str) -> str:

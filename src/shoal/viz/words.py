@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+from shoal.record.choices import degree_text, strategy_text
 from shoal.record.record import Record
 from shoal.record.statistics import Estimate
 
@@ -67,8 +68,8 @@ def setup_phrases(record: Record) -> list[str]:
     agents = plural(facts.agents, "agent")
     return [
         f"{agents} ({fleets})" if len(facts.counts) > 1 else f"{agents} ({facts.fleets[0]})",
-        f"k = {scenario['network']['neighbors']}",
-        str(scenario["strategy"]["name"]),
+        f"k = {degree_text(scenario)}",
+        strategy_text(scenario),
         targets_text(scenario["targets"]),
         plural(scenario["steps"], "step") + f" of {facts.time_step:g} s",
         plural(len(record.tallies), "run"),

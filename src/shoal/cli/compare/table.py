@@ -74,7 +74,7 @@ def print_leaderboard(board: Leaderboard) -> None:
     console.print(_table(board.overall, columns))
     console.print("\nshare under each condition; + better, − worse than standing still; no sign: no difference shown\n")
     console.print(_shares(board))
-    family = f"the {board.score.tests} comparisons of scores together, and for the {board.shares.tests} of shares"
+    family = f"all comparisons of scores ({board.score.tests}) together, and for all of shares ({board.shares.tests})"
     _print_notes(console, family, board.overall)
 
 

@@ -1,0 +1,24 @@
+"""What a scenario's fleets were given, in words: once where all have the same, else of each."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+
+def strategy_text(scenario: Mapping[str, Any]) -> str:
+    """Names of the strategies: knn-pso; or levy-walk (scouts), knn-pso (trackers)."""
+    return _of_fleets(scenario, lambda fleet: (fleet.get("strategy") or scenario["strategy"])["name"])
+
+
+def degree_text(scenario: Mapping[str, Any]) -> str:
+    """How many neighbors are heard: 20; 5 (scouts), all (relays); or 10 to 25 (adaptive)."""
+    network = scenario["network"]
+    if adaptive := network.get("adaptive"):
+        return f"{adaptive['fewest']} to {adaptive['most']} (adaptive)"
+    return _of_fleets(scenario, lambda fleet: fleet.get("neighbors") or network["neighbors"])
+
+
+def _of_fleets(scenario: Mapping[str, Any], value: Callable[[Mapping[str, Any]], Any]) -> str:
+    values = {fleet["name"]: str(value(fleet)) for fleet in scenario["fleets"]}
+    if len(set(values.values())) == 1:
+        return next(iter(values.values()))
+    return ", ".join(f"{each} ({name})" for name, each in values.items())
