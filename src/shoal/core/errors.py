@@ -1,5 +1,8 @@
 """Errors a user can act on: each says where, what is wrong, and how to fix it."""
 
+import difflib
+from collections.abc import Iterable
+
 
 class ShoalError(ValueError):
     """Base of every error Shoal raises on purpose; the command line exits with 2 on it.
@@ -42,3 +45,9 @@ class MissingExtraError(ShoalError):
     def of(cls, package: str, extra: str, why: str) -> "MissingExtraError":
         """Return the one sentence: what to install and why."""
         return cls(package, f"is not installed, and {why} needs it", f"pip install 'shoal[{extra}]'")
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """Return the question whether a known name was meant, a space behind it; nothing if none is near."""
+    near = difflib.get_close_matches(name, list(known), n=1)
+    return f"did you mean {near[0]!r}? " if near else ""

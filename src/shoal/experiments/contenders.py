@@ -1,11 +1,10 @@
 """Contenders: the strategies of a comparison, by name or from a file, and the motionless lattice beside them."""
 
-import difflib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from shoal.core.errors import ScenarioError
+from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.scenario.plugins import find_strategy, load_strategies
 from shoal.strategies import CATALOGUE
 
@@ -58,8 +57,7 @@ def _contender(choice: str) -> Contender:
     else:
         owner = CATALOGUE.get(choice)
     if owner is None:
-        near = difflib.get_close_matches(choice, CATALOGUE, n=1)
-        hint = f"did you mean {near[0]!r}? " if near else ""
+        hint = did_you_mean(choice, CATALOGUE)
         known = ", ".join(sorted(CATALOGUE))
         raise ScenarioError(choice, "no strategy is called so", f"{hint}strategies: {known}; or a file: ./mine.py")
     return Contender(owner.name, choice, owner.informed)

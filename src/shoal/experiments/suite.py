@@ -1,6 +1,5 @@
 """A suite: fixed conditions, under which all strategies are compared. One TOML file each, in suites/."""
 
-import difflib
 import re
 import tomllib
 from collections.abc import Callable, Sequence
@@ -9,7 +8,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from shoal.core.errors import ScenarioError
+from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.experiments.cells import Cell, make_cells
 from shoal.experiments.compare import comparison_design, run_comparison, values_of
 from shoal.experiments.comparison import Values
@@ -72,8 +71,7 @@ def read_suite(name: str) -> Suite:
     ScenarioError : there is none
     """
     if name not in suites():
-        near = difflib.get_close_matches(name, suites(), n=1)
-        hint = f"did you mean {near[0]!r}? " if near else ""
+        hint = did_you_mean(name, suites())
         raise ScenarioError(f"--suite {name}", "no suite is called so", f"{hint}suites: {', '.join(suites())}")
     table = tomllib.loads((_folder() / f"{name}.toml").read_text(encoding="utf-8"))
     conditions = tuple(SuiteCondition(**each) for each in table.pop("conditions"))

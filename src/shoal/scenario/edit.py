@@ -1,6 +1,5 @@
 """Changes to a scenario's raw table, before it is validated: what --fast, --set and sweeps do."""
 
-import difflib
 import re
 import tomllib
 from collections.abc import Callable, Mapping
@@ -8,7 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from shoal.core.errors import ScenarioError
+from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.core.units import Unit
 
 Table = dict[str, Any]
@@ -48,8 +47,7 @@ def set_path(table: Table, path: str, value: Any) -> None:
         elif at == 0 and part not in here and part in ("area", "network", "motion", "strategy"):
             here = here.setdefault(part, {})
         else:
-            near = difflib.get_close_matches(part, list(here), n=1)
-            hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(here)}"
+            hint = did_you_mean(part, here).rstrip() or f"there are: {', '.join(here)}"
             raise ScenarioError(f"--set {path}", f"the scenario has no {where!r}", hint)
     if not isinstance(here, dict):
         raise ScenarioError(f"--set {path}", "names a whole entry of a list", f"name a field of it: {path}.FIELD=VALUE")

@@ -1,6 +1,5 @@
 """TOML to Scenario; a wrong field is refused with file, line, field, value, reason and the nearest valid name."""
 
-import difflib
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
@@ -11,7 +10,7 @@ from typing import Any
 import tomli_w
 from pydantic import ValidationError
 
-from shoal.core.errors import ScenarioError
+from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.scenario.plugins import find_strategy, load_strategies
 from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Join, Loss, Motion, Network, Scenario
 from shoal.scenario.strategy_choice import StrategyParamsError, params_model
@@ -107,8 +106,7 @@ def _text_of(source: str | Path) -> str:
     except UnicodeDecodeError:
         raise ScenarioError(str(source), "is not a text file", "name a TOML file or a preset") from None
     except OSError as error:
-        near = difflib.get_close_matches(str(source), presets(), n=1)
-        hint = f"did you mean {near[0]!r}? " if near else ""
+        hint = did_you_mean(str(source), presets())
         reason = "no preset and no file of this name" if isinstance(error, FileNotFoundError) else str(error.strerror)
         raise ScenarioError(str(source), reason, f"{hint}presets: {', '.join(presets())}") from None
 
@@ -138,8 +136,7 @@ def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tup
     value = error.get("input")
     known = _known_fields(path, table)
     if error["type"] == "extra_forbidden":
-        near = difflib.get_close_matches(str(path[-1]), known, n=1, cutoff=0.6)
-        hint = f"did you mean {near[0]!r}?" if near else f"fields here: {', '.join(known)}"
+        hint = did_you_mean(str(path[-1]), known).rstrip() or f"fields here: {', '.join(known)}"
         return f"unknown field (value {value!r})", hint
     if error["type"] == "missing":
         return "is required and missing", f"add {path[-1]} = ..."
@@ -149,12 +146,10 @@ def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tup
     if error["type"] == "strategy_name":
         names = error["ctx"]["known"].split(", ")
         wrong = value.get("name") if isinstance(value, dict) else value
-        near = difflib.get_close_matches(str(wrong), names, n=1)
-        hint = f"did you mean {near[0]!r}? " if near else ""
+        hint = did_you_mean(str(wrong), names)
         return f"no strategy is called {wrong!r}", f'{hint}strategies: {", ".join(names)}; or file = "my_strategy.py"'
     if error["type"] == "union_tag_invalid":
-        near = difflib.get_close_matches(error["ctx"]["tag"], TARGETS, n=1)
-        hint = f"did you mean {near[0]!r}? " if near else ""
+        hint = did_you_mean(error["ctx"]["tag"], TARGETS)
         return f"no target is of kind {error['ctx']['tag']!r}", f"{hint}kinds: {', '.join(TARGETS)}"
     if error["type"] == "union_tag_not_found":
         return "a target needs a kind", f"add kind = one of: {', '.join(TARGETS)}"
