@@ -30,3 +30,10 @@ def test_two_charges_push_each_other_by_the_inverse_square_of_their_distance(dis
 
 def test_charges_at_one_place_have_no_direction_to_push():
     assert wanted(staged("charged-pso", [(1, 1), (1, 1)])).tolist() == [[0, 0], [0, 0]]
+
+
+def test_who_is_on_target_follows_nobody():
+    simulation = staged(("charged-pso", {"charge": 0.0}), [(0, 0), (0.5, 0), (4, 0)], targets=[(0, 0)])
+    first, second, third = wanted(simulation).tolist()
+    assert (first, second) == ([0, 0], [0, 0])
+    assert third[0] < 0.0

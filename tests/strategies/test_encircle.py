@@ -85,6 +85,11 @@ class TestEstimate:
     def test_it_moves_on_by_its_velocity(self):
         assert corrected((0.0, 0.0), (3.0, 4.0), (5.0, -2.0)) == pytest.approx([3.5, 3.8])
 
+    def test_it_stays_at_the_edge_of_the_area(self):
+        simulation = believing((0.0, 0.0), (9.95, -9.95), (1.0, -1.0))
+        simulation.advance(1)
+        assert memories(simulation, "x", "y", "vx", "vy")[0] == pytest.approx([10.0, -10.0, 0.0, 0.0])
+
     def test_a_leader_on_target_draws_it_to_the_rim_around_the_leader(self):
         simulation = staged("encircle", [(-5.0, 0.0), (5.0, 0.0)], targets=[(5.0, 0.5)])
         memory = simulation.minds.memory
@@ -126,6 +131,24 @@ class TestRing:
         assert DT * self.goal((0.0, 0.0), (3.0, 4.0), speed=1e-3, top=1e9) == pytest.approx(
             np.array([3.0, 4.0]) * (1.0 - 0.95 / 5.0), abs=1e-6
         )
+
+    def test_the_ring_is_ahead_by_a_share_of_the_time_to_get_there(self):
+        """0.1 of 5 m at 1 m/s is 0.5 s, in which the estimate goes 1 m."""
+        simulation = staged(("encircle", {"ring": 0.0, "chase": 1e9}), [(0.0, 0.0), FAR], top=1.0)
+        memory = simulation.minds.memory
+        memory["x"][0], memory["y"][0], memory["contact"][0] = 3.0 - DT * 1.6, 4.0 + DT * 1.2, 0.0
+        memory["vx"][0], memory["vy"][0], memory["speed"][0] = 1.6, -1.2, 2.0
+        assert wanted(simulation)[0] == pytest.approx(np.array([3.8, 3.4]) / math.hypot(3.8, 3.4))
+
+    def test_neighbors_nearer_than_the_spacing_push(self):
+        """By 0.3 ((2 m / 1 m)^2 - 1) of the way to the one, not to the other."""
+        goals = []
+        for push in (0.0, 0.3):
+            simulation = staged(("encircle", {"push": push, "lead": 0.0}), [(0.0, 0.0), (1.0, 0.0), (0.0, -3.0)])
+            memory = simulation.minds.memory
+            memory["x"][0], memory["y"][0], memory["speed"][0], memory["contact"][0] = 3.0, 4.0, 1.0, 0.0
+            goals.append(DT * wanted(simulation)[0])
+        assert goals[1] - goals[0] == pytest.approx([-0.9, 0.0], abs=1e-5)
 
     @pytest.mark.parametrize(("distance", "goes"), [(4.4, True), (4.6, False)])
     def test_an_agent_half_as_fast_as_the_target_goes_half_as_far(self, distance, goes):

@@ -38,9 +38,9 @@ def decide(me, heard, memory, params, draw):
 
     v <- omega v + (c r (Nbest - x) + q^3 sum_j (x_i - x_j) / (max(r_ij, p_core)^2 r_ij)) / dt
     """
-    square_charge = params.charge * params.charge * params.charge
-    step_x = square_charge * heard.sum_x
-    step_y = square_charge * heard.sum_y
+    strength = params.charge * params.charge * params.charge
+    step_x = strength * heard.sum_x
+    step_y = strength * heard.sum_y
     if heard.found and not me.on_target:
         share = params.social * uniform(draw, 0)
         step_x += share * (heard.x - me.x)
