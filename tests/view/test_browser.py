@@ -156,7 +156,7 @@ class TestWatching:
         page.keyboard.press("3")
         page.mouse.click(*first_living_agent(page))
         page.wait_for_function("before => shoal.agents() === before - 1", arg=before)
-        page.get_by_text("1 gone").wait_for()
+        page.get_by_text("1 not there").wait_for()
 
     def test_a_click_on_empty_water_adds_a_buoy(self, open_page, address):
         page = open_page(address)

@@ -1,5 +1,7 @@
 """The frames kept to go back to."""
 
+import numpy as np
+
 from shoal.view.ring import Kept, Ring
 
 
@@ -33,6 +35,13 @@ class TestRing:
     def test_one_frame_is_kept_however_large(self):
         frames = ring(1, room=3)
         assert len(frames) == 1
+
+    def test_a_few_frames_are_spread_over_the_steps_of_all(self):
+        crowded = ring(*range(100), *range(100, 1000, 50))  # slow at first
+        spread = [each.step for each in crowded.spread(11)]
+        assert (spread[0], spread[-1]) == (0, 950)
+        assert np.abs(np.array(spread) - np.linspace(0, 950, 11)).max() < 50
+        assert [each.step for each in ring(3, 4).spread(11)] == [3, 4]
 
     def test_a_frame_of_the_same_step_replaces_the_newest(self):
         frames = ring(0, 10)

@@ -1,6 +1,7 @@
 """A session: play, pause, seek, change; without threads or network."""
 
 import json
+import math
 
 import pytest
 
@@ -10,7 +11,7 @@ from shoal.core.errors import ScenarioError
 from shoal.scenario.load import read_table, scenario_from
 from shoal.simulation import Simulation
 from shoal.view.requests import parse_request
-from shoal.view.session import Session
+from shoal.view.session import POINTS, Session
 
 
 def table(**changes):
@@ -243,6 +244,29 @@ class TestRecording:
         one = played(session(limit=10), 5)
         ask(one, "seek", step=2)
         assert shown(one).step == 2
+
+
+class TestHistory:
+    def test_it_says_what_the_frames_said(self):
+        one = session(table(), table(**{"network.neighbors": 5}), speed=10)
+        frames = [[shown(one, run) for run in (0, 1)]]
+        for _ in range(20):
+            one.play_on()
+            frames.append([shown(one, run) for run in (0, 1)])
+        for run, text in enumerate(one.history()):
+            told = json.loads(text)
+            assert (told["type"], told["run"]) == ("history", run)
+            assert told["step"] == [each[run].step for each in frames]
+            for name in ("time_on_target", "recent", "xi", "xi_now", "engaged"):
+                said = [math.nan if value is None else value for value in told[name]]
+                assert said == pytest.approx([getattr(each[run], name) for each in frames], nan_ok=True)
+        assert told["time_on_target"][0] is None
+
+    def test_it_is_short_however_long_the_run(self):
+        one = played(session(), POINTS + 50)
+        told = json.loads(one.history()[0])
+        assert len(told["step"]) == POINTS
+        assert (told["step"][0], told["step"][-1]) == (0, POINTS + 50)
 
 
 class TestHello:

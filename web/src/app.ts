@@ -8,7 +8,7 @@ import { listen, type Key } from "./keyboard";
 import { Numbers, type RunNumbers } from "./numbers";
 import { readTheme, type Theme } from "./palette";
 import { attachPointer } from "./pointer";
-import type { Failure, Frame, Hello, Request, Scene, Status } from "./protocol";
+import type { Failure, Frame, Hello, Past, Request, Scene, Status } from "./protocol";
 import type { Listener, Source } from "./source";
 import { Stage } from "./stage";
 import { SwarmControls, TOOLS } from "./swarm";
@@ -46,7 +46,7 @@ export class App implements Listener {
     byId("help-open").onclick = () => this.help();
     byId("help-close").onclick = () => byId<HTMLDialogElement>("help").close();
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.refresh());
-    new ResizeObserver(() => (this.uncounted = true)).observe(byId("side"));
+    new ResizeObserver(() => (this.uncounted = true)).observe(document.body);
     listen(this.keys());
     requestAnimationFrame(this.tick);
     source.connect();
@@ -85,6 +85,10 @@ export class App implements Listener {
     this.showTool();
   }
 
+  past(past: Past): void {
+    this.runs[past.run]?.history.fill(past);
+  }
+
   scene(run: number, scene: Scene): void {
     const numbers = this.runs[run];
     const before = this.stages[run]?.newest?.epoch;
@@ -93,7 +97,7 @@ export class App implements Listener {
     if (!this.stages[run].learn(scene)) return;
     numbers.scene = scene;
     if (scene.epoch !== before) {
-      numbers.history.cut(scene.since);
+      if (before !== undefined) numbers.history.cut(scene.since);
       numbers.marks = [...numbers.marks.filter((step) => step < scene.since), scene.since];
     }
     if (!this.source.live) {

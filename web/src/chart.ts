@@ -22,16 +22,16 @@ interface Plot {
 
 const FONT = "10.5px system-ui, sans-serif";
 
-/** Lines over steps. `marks`: steps with a dotted line, where the swarm was changed; `shown`: the step on the water. */
+/** Lines over steps. `top`: of the axis, null for the highest value, or `least` if all are lower. `marks`: steps with a dotted line, where the swarm was changed; `shown`: the step on the water. */
 export function drawLines(
   canvas: HTMLCanvasElement, theme: Theme, lines: Line[],
-  options: { first: number; last: number; top: number | null; marks: number[]; shown: number },
+  options: { first: number; last: number; top: number | null; least: number; marks: number[]; shown: number },
 ): void {
   const { first, marks, shown } = options;
   const last = Math.max(options.last, first + 1);
   const plot = begin(canvas, 30, 17);
   const { context, left, right, top, bottom } = plot;
-  const most = options.top ?? 1.08 * lines.reduce((high, line) => Math.max(high, highest(line.values)), 1e-9);
+  const most = options.top ?? 1.08 * lines.reduce((high, line) => Math.max(high, highest(line.values)), options.least);
   const toX = (step: number): number => left + ((step - first) / (last - first)) * (right - left);
   const toY = (value: number): number => bottom - (Math.min(value, most) / most) * (bottom - top);
   drawGrid(plot, theme, most, toY);

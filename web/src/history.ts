@@ -1,11 +1,15 @@
 // The numbers of a run over time, thinned so that a long run stays light.
 
-import type { Frame, Scene } from "./protocol";
+import type { Frame, Past, Scene } from "./protocol";
 
 const MOST = 4000; // points; then every second one goes
 
 export const SERIES = ["timeOnTarget", "timeOnTargetRecent", "xi", "xiNow", "engaged"] as const;
 export type Series = (typeof SERIES)[number];
+
+const NAMES = {
+  timeOnTarget: "time_on_target", timeOnTargetRecent: "recent", xi: "xi", xiNow: "xi_now", engaged: "engaged",
+} as const;
 
 export class History {
   readonly step: number[] = [];
@@ -18,6 +22,13 @@ export class History {
     this.step.push(frame.step);
     for (const name of SERIES) this.values[name].push(frame[name]);
     if (this.step.length > MOST) this.thin();
+  }
+
+  /** Begin with what went on before the page was opened. */
+  fill(past: Past): void {
+    this.cut(-1);
+    this.step.push(...past.step);
+    for (const name of SERIES) this.values[name].push(...past[NAMES[name]].map((value) => value ?? NaN));
   }
 
   /** Forget what comes after a step. */

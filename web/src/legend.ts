@@ -10,6 +10,7 @@ export class Legend {
   readonly root = el("ul", { class: "legend", "aria-label": "Legend" });
   private readonly gone = el("li", { hidden: true });
   private readonly goneText = document.createTextNode("");
+  private readonly unlinked = el("li", { hidden: true });
 
   describe(scene: Scene): void {
     this.root.replaceChildren();
@@ -17,17 +18,20 @@ export class Legend {
       this.add(fleetGlyph(styleOf(fleet)), `${count(fleet.count)} ${fleet.name}, ${short(fleet.max_speed)} m/s`);
     }
     this.add(glyph("rimmed", "currentColor", svg("circle", { r: 5 })), "on target");
-    for (const [words, radius] of targetKinds(scene)) {
+    for (const words of targetKinds(scene)) {
       const disc = svg("circle", { r: 6, "fill-opacity": 0.22, fill: "currentColor", stroke: "currentColor" });
-      this.add(glyph("target", TARGET_COLOR, disc, svg("path", { d: "M-3 0H3M0-3V3", stroke: "currentColor" })), `${words}, ρ ${short(radius)} m`);
+      this.add(glyph("target", TARGET_COLOR, disc, svg("path", { d: "M-3 0H3M0-3V3", stroke: "currentColor" })), words);
     }
     this.gone.replaceChildren(glyph("gone", "currentColor", svg("path", { d: "M-4-4L4 4M-4 4L4-4" })), this.goneText);
-    this.root.append(this.gone);
+    this.root.append(this.gone, this.unlinked);
   }
 
-  showGone(agents: number): void {
-    this.gone.hidden = agents === 0;
-    this.goneText.data = `${count(agents)} gone`;
+  /** Agents that are gone, or have not joined yet; links that are too many to draw. */
+  note(gone: number, unlinked: number): void {
+    this.gone.hidden = gone === 0;
+    this.goneText.data = `${count(gone)} not there`;
+    this.unlinked.hidden = unlinked === 0;
+    this.unlinked.textContent = `${count(unlinked)} links are too many to draw`;
   }
 
   private add(picture: SVGElement, words: string): void {
@@ -35,13 +39,10 @@ export class Legend {
   }
 }
 
-/** Each kind of target once: what it is called and its radius [m]. */
-function targetKinds(scene: Scene): Map<string, number> {
-  const kinds = new Map<string, number>();
-  const many = scene.targets.length > 1;
-  for (const target of scene.targets) {
-    const speed = target.speed === null ? target.kind : `${short(target.speed)} m/s`;
-    kinds.set(`${many ? "targets" : "target"}, ${speed}`, target.radius);
-  }
-  return kinds;
+/** Each kind of target once, in words. */
+function targetKinds(scene: Scene): Set<string> {
+  const name = scene.targets.length > 1 ? "targets" : "target";
+  return new Set(
+    scene.targets.map(({ kind, speed, radius }) => `${name}, ${speed === null ? kind : `${short(speed)} m/s`}, ρ ${short(radius)} m`),
+  );
 }

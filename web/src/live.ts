@@ -60,6 +60,8 @@ export class LiveSource implements Source {
     switch (message.type) {
       case "hello":
         return this.listener.hello(message);
+      case "history":
+        return this.listener.past(message);
       case "scene":
         if (message.scene.epoch > (this.epochs[message.run] ?? -1)) {
           this.epochs[message.run] = message.scene.epoch;

@@ -15,21 +15,22 @@ interface Measure {
   recentWords: string;
   record: "time_on_target" | "xi" | null;
   decimals: number;
-  top: number | null;
+  top: number | null; // of the axis; null: the highest value
+  least: number; // of that
 }
 
 const MEASURES: Measure[] = [
   {
     title: "Time on target", unit: "share of steps", value: "timeOnTarget", recent: "timeOnTargetRecent",
-    recentWords: "last 1\u2009000", record: "time_on_target", decimals: 3, top: 1,
+    recentWords: "last 1\u2009000", record: "time_on_target", decimals: 3, top: 1, least: 1,
   },
   {
     title: "Velocity fluctuation Ξ", unit: "of mean top speed", value: "xi", recent: "xiNow", recentWords: "now", record: "xi",
-    decimals: 3, top: null,
+    decimals: 3, top: null, least: 0.01,
   },
   {
     title: "Engaged", unit: "agents on target now", value: "engaged", recent: null, recentWords: "", record: null,
-    decimals: 0, top: null,
+    decimals: 0, top: null, least: 1,
   },
 ];
 
@@ -101,7 +102,7 @@ export class Numbers {
       );
       words.textContent = this.caption(measure, runs);
       const lines = runs.flatMap((run, n) => linesOf(measure, run, n, runs.length, theme));
-      drawLines(canvas, theme, lines, { first, last, top: measure.top, marks, shown });
+      drawLines(canvas, theme, lines, { first, last, top: measure.top, least: measure.least, marks, shown });
     }
     const bars = frames.flatMap((frame, n) => (frame ? [{ phi: frame.phi, color: runColor(n, runs.length, theme, theme.ink) }] : []));
     drawPhi(this.phi, theme, bars);

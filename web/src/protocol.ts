@@ -74,12 +74,24 @@ export interface Status {
   busy: string | null;
 }
 
+/** The course of a run before the page was opened. */
+export interface Past {
+  type: "history";
+  run: number;
+  step: number[];
+  time_on_target: (number | null)[];
+  recent: (number | null)[];
+  xi: (number | null)[];
+  xi_now: (number | null)[];
+  engaged: (number | null)[];
+}
+
 export interface Failure {
   type: "error";
   message: string;
 }
 
-export type Message = Hello | Status | Failure | { type: "scene"; run: number; scene: Scene };
+export type Message = Hello | Past | Status | Failure | { type: "scene"; run: number; scene: Scene };
 
 export type Change = string | number | boolean;
 
@@ -194,7 +206,7 @@ export function parseMessage(text: string): Message {
     throw new ProtocolError("the engine sent text that is no JSON");
   }
   const type = (message as { type?: unknown } | null)?.type;
-  if (type === "hello" || type === "scene" || type === "status" || type === "error") return message as Message;
+  if (["hello", "history", "scene", "status", "error"].includes(type as string)) return message as Message;
   throw new ProtocolError(`the engine sent a message of unknown type ${String(type)}`);
 }
 

@@ -1,10 +1,11 @@
 // Where scenes and frames come from: a running engine (live.ts) or the page itself (replay.ts).
 
-import type { Failure, Frame, Hello, Request, Scene, Status } from "./protocol";
+import type { Failure, Frame, Hello, Past, Request, Scene, Status } from "./protocol";
 import type { Tape } from "./tape";
 
 export interface Listener {
   hello(hello: Hello): void;
+  past(past: Past): void;
   scene(run: number, scene: Scene): void;
   frame(frame: Frame): void;
   status(status: Status): void;

@@ -49,6 +49,7 @@ export class Stage {
   private readonly water: HTMLElement;
   private readonly scenes = new Map<number, Scene>();
   private readonly reduced = matchMedia("(prefers-reduced-motion: reduce)");
+  private unlinked = 0; // links that are too many
   private pairs: { frame: Frame; pairs: Pairs } | null = null;
   private stale = true;
   private size = { width: 0, height: 0 };
@@ -108,7 +109,7 @@ export class Stage {
     const state = there ? `${fixed(frame.engaged, 0)} on target` : "no target is there";
     this.moment.textContent = `Step ${count(frame.step)} · ${time(frame.step * scene.time_step)} · ${state}`;
     const gone = frame.x.length - this.livingAgents();
-    this.legend.showGone(gone);
+    this.legend.note(gone, this.unlinked);
     if (playing) return; // a label that changes all the time is read out all the time
     const words = `${count(frame.x.length - gone)} buoys, ${state}`;
     this.canvas.setAttribute("aria-label", `Map of the swarm${this.letter && `, run ${this.letter}`}: ${words}`);
@@ -142,7 +143,8 @@ export class Stage {
     if (look.sensors) layers.drawSensors(brush, moment);
     if (look.halos) layers.drawHalos(brush, moment);
     this.links = 0;
-    if (look.links) {
+    if (!look.links) this.unlinked = 0;
+    else {
       const pairs = this.findPairs(frame, scene);
       this.links = pairs.length / 2;
       layers.drawLinks(brush, moment, pairs);
@@ -277,7 +279,8 @@ export class Stage {
   private findPairs(frame: Frame, scene: Scene): Pairs {
     if (this.pairs?.frame === frame) return this.pairs.pairs;
     const wanted = frame.degree.reduce((sum, degree) => sum + Math.min(degree, frame.x.length), 0);
-    const pairs = wanted > MOST_LINKS ? NO_PAIRS : nearestPairs(frame, scene.range, (agent) => isAlive(frame, agent));
+    this.unlinked = wanted > MOST_LINKS ? wanted : 0;
+    const pairs = this.unlinked ? NO_PAIRS : nearestPairs(frame, scene.range, (agent) => isAlive(frame, agent));
     this.pairs = { frame, pairs };
     return pairs;
   }

@@ -53,6 +53,17 @@ describe("A history", () => {
     assert.deepEqual(history.values.engaged, history.step);
   });
 
+  it("begins with what went on before the page was opened", () => {
+    const history = new History();
+    history.add(frameAt(3, 1));
+    const none = [null, null];
+    history.fill({ type: "history", run: 0, step: [0, 50], time_on_target: none, recent: none, xi: [null, 0.5], xi_now: none, engaged: [2, 4] });
+    for (const step of [49, 50, 51]) history.add(frameAt(step, 5));
+    assert.deepEqual(history.step, [0, 50, 51]);
+    assert.deepEqual(history.values.engaged, [2, 4, 5]);
+    assert.deepEqual(history.values.xi, [NaN, 0.5, 0]);
+  });
+
   it("does not change when older frames are shown again", () => {
     const history = new History();
     for (const step of [0, 1, 2, 1, 0]) history.add(frameAt(step));

@@ -54,6 +54,8 @@ class Client:
 
     async def _tell(self) -> None:
         await self._socket.send_text(self._worker.hello)
+        for history in self._worker.session.history():
+            await self._socket.send_text(history)
         scenes: list[str | None] = [None] * len(self._worker.session.runs)
         kept = None
         self._news.set()

@@ -14,6 +14,9 @@ ON_TARGET, ALIVE = 1, 2  # bits of an agent
 PRESENT = 1  # bit of a target
 
 
+SCALARS = ("time_on_target", "recent", "xi", "xi_now", "engaged")
+
+
 class Gauges(NamedTuple):
     """The numbers of a frame; NaN where one does not exist.
 
@@ -56,6 +59,12 @@ def pack(
     frame["target_x"], frame["target_y"] = targets["x"], targets["y"]
     frame["target_bits"] = targets["present"] * PRESENT
     return frame.tobytes()
+
+
+def gauges_of(frame: bytes) -> Gauges:
+    """Return the numbers of a packed frame."""
+    numbers = np.frombuffer(frame, "<f4", 5 + BINS, offset=_layout(0, 0).fields["gauges"][1])
+    return Gauges(*(float(each) for each in numbers[:5]), phi=numbers[5:])
 
 
 @cache

@@ -9,6 +9,7 @@ from shoal.core.errors import RecordError, ScenarioError
 from shoal.record.record import Record
 from shoal.view.page import inline_page
 from shoal.view.recorded import recorded_frames, recorded_scene
+from shoal.view.ring import evenly
 
 Part = Literal["all", "end"]
 
@@ -44,7 +45,4 @@ def choose_frames(steps: npt.NDArray[np.int64], frames: int, part: Part) -> npt.
         gaps = np.flatnonzero(np.diff(steps) > 1)
         first = int(gaps[-1]) + 1 if gaps.size else 0
         return np.arange(max(first, steps.size - frames), steps.size)
-    if steps.size <= frames:
-        return np.arange(steps.size)
-    wanted = np.linspace(steps[0], steps[-1], frames)
-    return np.unique(np.searchsorted(steps, wanted, side="right") - 1)
+    return evenly(steps, frames)

@@ -23,11 +23,13 @@ from shoal.view.requests import (
     Speed,
     Step,
 )
+from shoal.view.frame import SCALARS, gauges_of
 from shoal.view.ring import Kept, Ring
 from shoal.view.scene import as_json, describe
 
 SPEEDS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 ROOM = 64_000_000  # bytes of frames that can be sought
+POINTS = 300  # of the charts that a new page begins with
 FRAMES_PER_SECOND = 25  # at least, where the speed allows; at most twice as many
 STRIDES = (1, 2, 4, 5, 8, 10, 20, 25, 40, 50, 100, 125, 200, 250, 500, 1000)  # steps between frames: they divide 1,000
 
@@ -118,6 +120,11 @@ class Session:
                 "busy": self.busy,
             }
         )
+
+    def history(self) -> list[str]:
+        """For each run the message that fills a new page's charts; may be called from any thread."""
+        kept = self._ring.spread(POINTS)
+        return [_history(run, kept) for run in range(len(self.runs))]
 
     def play_on(self) -> float:
         """Run to the next frame of the speed, keep it, show it; return how long it lasts [s]."""
@@ -213,3 +220,15 @@ class Session:
         if self.busy != sentence:
             self.busy = sentence
             self.on_busy()
+
+
+def _history(run: int, kept: Sequence[Kept]) -> str:
+    gauges = [gauges_of(each.frames[run]) for each in kept]
+    return as_json(
+        {
+            "type": "history",
+            "run": run,
+            "step": [each.step for each in kept],
+            **{name: [getattr(each, name) for each in gauges] for name in SCALARS},
+        }
+    )
