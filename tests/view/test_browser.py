@@ -207,6 +207,25 @@ class TestWatching:
         page.keyboard.press("End")
         page.get_by_text("This is the past.").wait_for(state="hidden")
 
+    def test_means_of_the_past_say_when_they_began(self, open_page, address):
+        page = open_page(address)
+        page.wait_for_function("() => shoal.step() > 0")
+        pause(page)
+        step = page.evaluate("shoal.step()")
+        slide(page, "Neighbors heard, k", "ArrowLeft", 1)
+        page.get_by_text(f"since step {step}").first.wait_for()
+        page.get_by_role("slider", name="Step shown").fill("0")
+        page.get_by_text("share of steps").wait_for()
+
+    def test_charts_of_a_page_opened_late_begin_where_those_of_the_first_do(self, open_page, address):
+        first = open_page(address)
+        first.wait_for_function("() => shoal.step() >= 10")
+        late = open_page(address)
+        assert late.evaluate("shoal.charted()") == 0
+        late.reload()
+        late.wait_for_function("() => window.shoal && shoal.step() >= 10")
+        assert late.evaluate("shoal.charted()") == 0
+
     def test_two_browsers_watch_the_same_run(self, open_page, address):
         one, two = open_page(address), open_page(address)
         pause(one)

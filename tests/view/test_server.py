@@ -141,7 +141,14 @@ class TestGuard:
         if host:
             assert knock(address, host=host) == 403
 
-    @pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "LOCALHOST:1234", "[::1]:9"])
+    @pytest.mark.parametrize(
+        "host", ["127.0.0.1:80@evil.example", "127.0.0.1:80, evil.example", "127.0.0.1:evil", "[[localhost", "localhost]", "localhost.", "::1"]
+    )  # fmt: skip
+    def test_what_is_no_name_and_port_is_refused(self, address, host):
+        assert get(address, Host=host)[0] == 403
+        assert knock(address, host=host) == 403
+
+    @pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "LOCALHOST:1234", "[::1]:9", "[::1]"])
     def test_this_machine_may_be_called_by_its_names(self, address, host):
         assert get(address, Host=host)[0] == 200
 

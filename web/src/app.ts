@@ -62,7 +62,7 @@ export class App implements Listener {
     document.body.dataset.runs = String(hello.runs);
     const letters = hello.runs > 1 ? ["A", "B"].slice(0, hello.runs) : [""];
     this.stages = letters.map((letter, run) => new Stage(run, letter, (each) => this.source.tape(each)));
-    this.runs = letters.map(() => ({ history: new History(), scene: null, frame: null, marks: [] }));
+    this.runs = letters.map(() => ({ history: new History(), scene: null, frame: null, since: 0, marks: [] }));
     this.numbers = new Numbers(letters);
     this.swarm = this.source.live ? new SwarmControls(hello, letters, (request) => this.send(request), () => this.showTool()) : null;
     byId("stages").replaceChildren(...this.stages.map((stage) => stage.root));
@@ -117,6 +117,7 @@ export class App implements Listener {
     run.frame = frame;
     run.history.add(frame);
     this.stages[frame.run].show(frame, this.status_?.playing ?? false);
+    run.since = this.stages[frame.run].scene?.since ?? 0;
     this.uncounted = true;
   }
 
@@ -159,6 +160,8 @@ export class App implements Listener {
       const camera = this.stages[0]?.camera;
       return camera ? [camera.toX(x), camera.toY(y)] : [NaN, NaN];
     },
+    /** The first step in the charts. */
+    charted: (): number => this.runs[0]?.history.step[0] ?? -1,
     playing: (): boolean => this.status_?.playing ?? false,
     fps: (): number => this.stages[0]?.fps(performance.now()) ?? 0,
   };

@@ -39,6 +39,7 @@ export interface RunNumbers {
   history: History;
   scene: Scene | null;
   frame: Frame | null;
+  since: number; // step at which the means of the frame began
   marks: number[]; // steps at which the swarm was changed
 }
 
@@ -109,9 +110,8 @@ export class Numbers {
   }
 
   private caption(measure: Measure, runs: RunNumbers[]): string {
-    const since = runs[0].scene?.since ?? 0;
+    const { frame, since } = runs[0];
     const unit = measure.recent && since > 0 ? `since step ${count(since)}` : measure.unit;
-    const [{ frame }] = runs;
     if (!measure.recent || runs.length > 1) return unit;
     return `${unit} · ${measure.recentWords}: ${fixed(frame ? frame[measure.recent] : NaN, measure.decimals)}`;
   }

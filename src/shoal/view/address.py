@@ -3,12 +3,14 @@
 import errno
 import ipaddress
 import os
+import re
 import socket
 from typing import Any
 
 from shoal.core.errors import ShoalError
 
 LOCAL = "127.0.0.1"
+_HOST = re.compile(r"(?:\[(?P<inside>[^\[\]]+)\]|(?P<name>[^\[\]:]+))(?::[0-9]{1,5})?")  # a Host header
 ANYWHERE = {"0.0.0.0": LOCAL, "::": "::1"}  # to listen at all addresses of this machine, and one of them
 
 
@@ -36,8 +38,10 @@ class Guard:
             await send({"type": "http.response.body", "body": b"not served under this name\n"})
 
     def _knows(self, host: str) -> bool:
-        name = host.rpartition(":")[0] if not host.endswith("]") and ":" in host else host
-        name = name.strip("[]").lower()
+        parts = _HOST.fullmatch(host)
+        if not parts:
+            return False
+        name = (parts["inside"] or parts["name"]).lower()
         return name in self._names if self._names is not None else name == "localhost" or _is_address(name)
 
 
