@@ -63,8 +63,9 @@ def pack(
 
 def gauges_of(frame: bytes) -> Gauges:
     """Return the numbers of a packed frame."""
-    numbers = np.frombuffer(frame, "<f4", 5 + BINS, offset=_layout(0, 0).fields["gauges"][1])
-    return Gauges(*(float(each) for each in numbers[:5]), phi=numbers[5:])
+    head = _layout(0, 0)
+    numbers = np.frombuffer(frame[: head.itemsize], head)["gauges"][0]
+    return Gauges._make([*map(float, numbers[:5]), numbers[5:]])
 
 
 @cache
