@@ -168,6 +168,7 @@ class TestPhiHistogram:
         left, right = plot.phi_histogram({"few": one, "many": other}).axes
         assert (left.get_title("left"), right.get_title("left")) == ("few", "many")
         assert left.get_ylim() == right.get_ylim()
+        assert list(left.get_yticks()) == list(right.get_yticks())
 
     def test_one_pair_of_axes_is_for_one_record(self, records, axes):
         with pytest.raises(RecordError, match="records: are 2"):

@@ -150,9 +150,11 @@ def phi_histogram(
             panel = figure.add_axes((at / across, bottom / tall, width / across, height / tall))
             draw_phi_histogram(panel, record)
             panel.set_title(short_name(name or record.scenario["name"]))
-        top = max(panel.get_ylim()[1] for panel in figure.axes)
-        for panel in figure.axes:
-            panel.set_ylim(0.0, top)
+        scaled = [panel for panel in figure.axes if len(panel.get_yticks())]  # the others had no target
+        tallest = max(scaled or figure.axes, key=lambda panel: panel.get_ylim()[1])
+        for panel in scaled:
+            panel.set_yticks(tallest.get_yticks())
+            panel.set_ylim(tallest.get_ylim())
     return figure
 
 

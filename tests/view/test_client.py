@@ -5,7 +5,7 @@ import json
 
 from frames import decode
 from shoal.scenario.load import read_table
-from shoal.view.client import NONSENSE, Client
+from shoal.view.client import NONSENSE, UNHEARD, Client
 from shoal.view.session import Session
 from shoal.view.worker import View, Worker
 
@@ -129,6 +129,25 @@ class TestTelling:
 
 
 class TestHearing:
+    def test_a_page_that_does_not_listen_is_not_told_of_all_its_errors(self):
+        async def both():
+            socket = Socket()
+            client = Client(socket, idle())
+            serving = asyncio.create_task(client.serve())
+            await a_moment()
+            socket.open_.clear()
+            for number in range(3 * UNHEARD):
+                client._fail(str(number))
+            socket.open_.set()
+            for _ in range(5):
+                await a_moment()
+            socket.gone.set()
+            await serving
+            return socket
+
+        told = [each["message"] for each in asyncio.run(both()).texts if each["type"] == "error"]
+        assert told == [str(number) for number in range(2 * UNHEARD, 3 * UNHEARD)]
+
     def test_nonsense_is_answered(self):
         socket = talk(idle(), nothing, "nonsense")
         assert [each["message"][:8] for each in socket.texts if each["type"] == "error"] == ["request:"]

@@ -253,8 +253,9 @@ class TestHistory:
         for _ in range(20):
             one.play_on()
             frames.append([shown(one, run) for run in (0, 1)])
-        for run, text in enumerate(one.history()):
-            told = json.loads(text)
+        histories = [json.loads(text) for text in one.history()]
+        assert len(histories) == 2
+        for run, told in enumerate(histories):
             assert (told["type"], told["run"]) == ("history", run)
             assert told["step"] == [each[run].step for each in frames]
             for name in ("time_on_target", "recent", "xi", "xi_now", "engaged"):
