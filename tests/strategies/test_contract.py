@@ -1,6 +1,7 @@
 """A strategy is one plain function in a file of the user's; it runs like our own."""
 
 import math
+from collections import namedtuple
 
 import numpy as np
 import pytest
@@ -262,6 +263,28 @@ class TestErrors:
         chosen = using(written(tmp_path, DRIFTER.replace("if heard.found:", "if heard.target_x > 0.0:")))
         with pytest.raises(StrategyError, match="target_x"):
             Simulation(chosen).advance(1)
+
+    @pytest.mark.slow
+    @pytest.mark.parametrize(
+        ("line", "says"),
+        [
+            ("raise ValueError('no')", r":\d+: strategy 'drifter' raised ValueError: no"),
+            ("memory.course = 1.0", "'course' is no field of a memory"),
+            ("return 1.0", "return two numbers"),
+        ],
+    )
+    def test_a_function_that_fails_as_it_is_compiled_or_run(self, tmp_path, line, says):
+        head, body = DRIFTER.split("    if heard.found:", 1)
+        broken = f"{head}    if me.time >= 0.0:\n        {line}\n    if heard.found:{body}"
+        with pytest.raises(StrategyError, match=says):
+            Simulation(using(written(tmp_path, broken))).advance(1)
+
+    def test_a_function_of_other_arguments(self):
+        with pytest.raises(StrategyError, match=r"(?s)decide takes 2 arguments.*me, heard, memory, params, draw"):
+            strategy("mine", params=namedtuple("Mine", []))(lambda me, heard: (0.0, 0.0))
+
+    def test_a_file_that_ends_the_program(self, tmp_path):
+        assert "SystemExit" in refusal(tmp_path, "raise SystemExit(0)\n")[1]
 
     def test_parameters_that_are_no_named_tuple(self):
         with pytest.raises(StrategyError, match="is no NamedTuple"):

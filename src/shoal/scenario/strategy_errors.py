@@ -11,7 +11,7 @@ from shoal.scenario.crew import Crew
 from shoal.scenario.plugins import line_in
 
 _TELLS = "rror|nknown|not defined|resolve|nvalid|No implementation"
-_SILENT = "Failed in nopython mode|^During|^File "
+_SILENT = "Failed in nopython mode|Rejected as|^During|^File "
 
 
 @contextmanager
@@ -52,7 +52,7 @@ def _uncompiled(crew: Crew, told: str) -> StrategyError:
 
 def _reason(told: str) -> str:
     """The one line of the compiler's pages that says most, without the types of all arguments."""
-    if re.search(r"failed to unpack|setitem\(array\(float64", told):
+    if re.search(r"failed to unpack|unify return type|setitem\(array\(float64", told):
         return "a function does not return what it should: decide and influence return two numbers"
     lines = [line.strip() for line in told.splitlines() if line.strip()]
     saying = [line for line in lines if not re.search(_SILENT, line)] or lines
