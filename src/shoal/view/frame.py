@@ -63,8 +63,8 @@ def pack(
 
 def gauges_of(frame: bytes) -> Gauges:
     """Return the numbers of a packed frame."""
-    numbers = np.frombuffer(frame, "<f4", 5 + BINS, offset=_layout(0, 0).fields["gauges"][1])
-    return Gauges(*(float(each) for each in numbers[:5]), phi=numbers[5:])
+    numbers = np.frombuffer(frame, _layout(0, 0), count=1)["gauges"][0]  # they come before the agents
+    return Gauges(*(float(each) for each in numbers[:5]), numbers[5:])
 
 
 @cache

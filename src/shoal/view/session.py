@@ -7,6 +7,7 @@ from shoal.runs import chunk_steps
 from shoal.scenario.crew import crew_of
 from shoal.scenario.schema import Scenario
 from shoal.strategies import CATALOGUE
+from shoal.view.frame import SCALARS, gauges_of
 from shoal.view.live import LiveRun, Table
 from shoal.view.requests import (
     FASTEST,
@@ -23,7 +24,6 @@ from shoal.view.requests import (
     Speed,
     Step,
 )
-from shoal.view.frame import SCALARS, gauges_of
 from shoal.view.ring import Kept, Ring
 from shoal.view.scene import as_json, describe
 
