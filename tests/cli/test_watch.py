@@ -71,7 +71,8 @@ class TestWatch:
 
             with connect(address.replace("http", "ws") + "live") as page:
                 assert json.loads(page.recv(timeout=SOON))["runs"] == 2
-                scenes = [json.loads(page.recv(timeout=SOON)) for _ in range(2)]
+                told = [json.loads(page.recv(timeout=SOON)) for _ in range(4)]  # two histories, two scenes
+            scenes = [each for each in told if each["type"] == "scene"]
             assert [told["scene"]["neighbors"] for told in scenes] == [20, 5]
             assert interrupt(process) == (0, "")
 

@@ -64,7 +64,7 @@ def pack(
 def gauges_of(frame: bytes) -> Gauges:
     """Return the numbers of a packed frame."""
     numbers = np.frombuffer(frame, _layout(0, 0), count=1)["gauges"][0]  # they come before the agents
-    return Gauges(*(float(each) for each in numbers[:5]), numbers[5:])
+    return Gauges._make([*numbers[:5].tolist(), numbers[5:]])
 
 
 @cache
