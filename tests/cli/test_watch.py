@@ -71,12 +71,9 @@ class TestWatch:
 
             with connect(address.replace("http", "ws") + "live") as page:
                 assert json.loads(page.recv(timeout=SOON))["runs"] == 2
-                scenes: list[dict] = []
-                while len(scenes) < 2:
-                    told = page.recv(timeout=SOON)
-                    if isinstance(told, str) and json.loads(told)["type"] == "scene":
-                        scenes.append(json.loads(told)["scene"])
-            assert [scene["neighbors"] for scene in scenes] == [20, 5]
+                told = [json.loads(page.recv(timeout=SOON)) for _ in range(4)]  # two histories, two scenes
+            scenes = [each for each in told if each["type"] == "scene"]
+            assert [told["scene"]["neighbors"] for told in scenes] == [20, 5]
             assert interrupt(process) == (0, "")
 
     def test_a_record_is_played(self, tmp_path):

@@ -99,6 +99,15 @@ class TestFrames:
                 page.pixels(number)
             assert bytes(page.pixels(20)) == once
 
+    @pytest.mark.parametrize("kind", ["mp4", "gif"])
+    def test_each_frame_of_the_file_shows_its_own_step(self, make_record, tmp_path, kind):
+        record = make_record()
+        _, film = decoded(write_film(record, tmp_path / f"f.{kind}", start=0, steps=40, look=FilmLook(width=240)).file)
+        steps = (0, 15, 39)
+        drawn = [pixels(record, step)[:, :, :3].astype(int) for step in steps]
+        for place, step in enumerate(steps):
+            assert np.argmin([np.abs(film[step] - each).mean() for each in drawn]) == place
+
     def test_the_target_is_where_it_was(self, make_record):
         """The only thing between two frames of a swarm at rest that differs in the arena is the target."""
         record = make_record()

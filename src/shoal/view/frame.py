@@ -63,9 +63,8 @@ def pack(
 
 def gauges_of(frame: bytes) -> Gauges:
     """Return the numbers of a packed frame."""
-    head = _layout(0, 0)
-    numbers = np.frombuffer(frame[: head.itemsize], head)["gauges"][0]
-    return Gauges._make([*map(float, numbers[:5]), numbers[5:]])
+    numbers = np.frombuffer(frame, _layout(0, 0), count=1)["gauges"][0]  # they come before the agents
+    return Gauges._make([*numbers[:5].tolist(), numbers[5:]])
 
 
 @cache
