@@ -9,6 +9,7 @@ from cyclopts import Parameter
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler, tell_of_compiling
+from shoal.cli.whole import MaybeWhole, Whole
 from shoal.core.errors import ScenarioError
 
 if TYPE_CHECKING:
@@ -24,20 +25,20 @@ def film(
     /,
     *,
     out: Path,
-    start: int | None = None,
-    steps: int | None = None,
-    every: int | None = None,
-    step: int | None = None,
+    start: MaybeWhole = None,
+    steps: MaybeWhole = None,
+    every: MaybeWhole = None,
+    step: MaybeWhole = None,
     seconds: float | None = None,
     fps: float | None = None,
     size: str | None = None,
-    run: int = 0,
+    run: Whole = 0,
     links: Annotated[bool, _No] = False,
     trails: bool = True,
     halos: Annotated[bool, _No] = False,
     sensors: Annotated[bool, _No] = False,
     panels: Annotated[bool, _No] = False,
-    seed: int | None = None,
+    seed: MaybeWhole = None,
     assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
 ) -> None:
     """Make a film (.mp4, .gif) or a still (.png) of a record, or of a scenario, which is run for it.

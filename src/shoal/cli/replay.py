@@ -5,6 +5,7 @@ from typing import Literal
 
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler
+from shoal.cli.whole import Whole
 
 
 def replay(
@@ -12,7 +13,7 @@ def replay(
     /,
     *,
     out: Path,
-    frames: int = 2000,
+    frames: Whole = 2000,
     part: Literal["all", "end"] = "all",
 ) -> None:
     """Write a page that plays a record in any browser, by itself: no server, no network.

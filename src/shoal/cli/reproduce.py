@@ -8,6 +8,7 @@ from cyclopts import Parameter
 
 from shoal.cli.progress import note
 from shoal.cli.sweep_progress import sweep_progress
+from shoal.cli.whole import MaybeWhole
 
 if TYPE_CHECKING:
     from shoal.paper.results import Reproduction
@@ -19,7 +20,7 @@ def reproduce(
     *,
     quick: Annotated[bool, Parameter(negative=())] = False,
     out: Path | None = None,
-    jobs: int | None = None,
+    jobs: MaybeWhole = None,
 ) -> None:
     """Run a paper's experiments, test its claims, and write a report; the same command again resumes.
 

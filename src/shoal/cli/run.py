@@ -10,6 +10,7 @@ from cyclopts import Parameter
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler, tell_of_compiling
+from shoal.cli.whole import MaybeWhole, Whole
 
 
 def run(
@@ -17,18 +18,18 @@ def run(
     /,
     *,
     neighbors: Annotated[str | None, Parameter(name=["--neighbors", "-k"])] = None,
-    fast: int | None = None,
-    agents: int | None = None,
+    fast: MaybeWhole = None,
+    agents: MaybeWhole = None,
     target_speed: str | None = None,
-    steps: int | None = None,
-    seed: int | None = None,
-    runs: int = 1,
-    jobs: int | None = None,
+    steps: MaybeWhole = None,
+    seed: MaybeWhole = None,
+    runs: Whole = 1,
+    jobs: MaybeWhole = None,
     strategy: str | None = None,
     target_track: str | None = None,
     track_id: str | None = None,
     assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
-    every: int | None = None,
+    every: MaybeWhole = None,
     out: Path | None = None,
     figure: Path | None = None,
     json_: Annotated[bool, Parameter(name="--json", negative=())] = False,

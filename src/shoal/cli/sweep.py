@@ -10,6 +10,7 @@ from cyclopts import Parameter
 from shoal.cli.progress import note
 from shoal.cli.startup import load_compiler
 from shoal.cli.sweep_progress import sweep_progress
+from shoal.cli.whole import MaybeWhole, Whole
 
 
 def sweep(
@@ -18,15 +19,15 @@ def sweep(
     *,
     out: Path | None = None,
     vary: Annotated[list[str] | None, Parameter(negative=(), consume_multiple=False)] = None,
-    runs: int | None = None,
-    jobs: int | None = None,
+    runs: MaybeWhole = None,
+    jobs: MaybeWhole = None,
     executor: Literal["local", "dask"] = "local",
     scheduler: str | None = None,
-    steps: int | None = None,
-    seed: int | None = None,
+    steps: MaybeWhole = None,
+    seed: MaybeWhole = None,
     assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
     until_ci: float | None = None,
-    max_runs: int = 50,
+    max_runs: Whole = 50,
     independent: Annotated[bool, Parameter(negative=())] = False,
     retry_failed: Annotated[bool, Parameter(negative=())] = False,
     dry_run: Annotated[bool, Parameter(negative=())] = False,

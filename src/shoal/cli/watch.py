@@ -10,6 +10,7 @@ from cyclopts import Parameter
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler
+from shoal.cli.whole import MaybeWhole, Whole
 
 if TYPE_CHECKING:
     from shoal.view.session import Session
@@ -21,18 +22,18 @@ def watch(
     *,
     against: str | None = None,
     neighbors: Annotated[str | None, Parameter(name=["--neighbors", "-k"])] = None,
-    fast: int | None = None,
-    agents: int | None = None,
+    fast: MaybeWhole = None,
+    agents: MaybeWhole = None,
     target_speed: str | None = None,
-    steps: int | None = None,
-    seed: int | None = None,
+    steps: MaybeWhole = None,
+    seed: MaybeWhole = None,
     strategy: str | None = None,
     target_track: str | None = None,
     track_id: str | None = None,
     assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
     speed: float = 1.0,
     host: str = "127.0.0.1",
-    port: int = 0,
+    port: Whole = 0,
     browser: bool = True,
     out: Path | None = None,
 ) -> None:

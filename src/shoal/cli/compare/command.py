@@ -6,6 +6,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from shoal.cli.startup import load_compiler
+from shoal.cli.whole import MaybeWhole
 
 SCENARIO, METRIC = "oceans2020", "time_on_target"
 
@@ -14,14 +15,14 @@ def compare(
     *strategies: str,
     scenario: str | None = None,
     suite: str | None = None,
-    runs: int | None = None,
-    steps: int | None = None,
-    seed: int | None = None,
+    runs: MaybeWhole = None,
+    steps: MaybeWhole = None,
+    seed: MaybeWhole = None,
     vary: Annotated[list[str] | None, Parameter(negative=(), consume_multiple=False)] = None,
     assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
     metric: str | None = None,
     baseline: str | None = None,
-    jobs: int | None = None,
+    jobs: MaybeWhole = None,
     out: Path | None = None,
     figure: Path | None = None,
     markdown: Path | None = None,
