@@ -79,22 +79,22 @@ def _oceans2020(quick: bool, steps: int, seeds: int) -> list[Group]:
     ]
     placement = grid({"target_speed": SPEEDS, "fast": [MIXED], "neighbors": [20], "fleets.BoB-1.start": START_PLACES})
     return [
-        Group("main", Design("oceans2020", _distinct(main), seeds), {"steps": steps}),
-        Group("placement", Design("oceans2020", _distinct(placement), seeds), {"steps": steps}),
+        Group("main", Design("oceans2020", distinct(main), seeds), {"steps": steps}),
+        Group("placement", Design("oceans2020", distinct(placement), seeds), {"steps": steps}),
         *_variants(_SENSITIVITY_NEIGHBORS_QUICK if quick else _SENSITIVITY_NEIGHBORS, steps, min(seeds, 3)),
     ]
 
 
 def _aamas2020(quick: bool, steps: int, seeds: int) -> list[Group]:
     """The predecessor's curves over k, with adaptive and with constant repulsion."""
-    points = _distinct(grid({"neighbors": _PUBLISHED_NEIGHBORS}))
+    points = distinct(grid({"neighbors": _PUBLISHED_NEIGHBORS}))
     presets = ("aamas2020", "aamas2020-constant")
     return [Group(name, Design(name, points, seeds), {"steps": steps}, {"preset": name}) for name in presets]
 
 
 def _variants(neighbors: Sequence[int], steps: int, seeds: int) -> list[Group]:
     """One group each: its change is to the base scenario, before `fast` = 0 removes a fleet."""
-    points = _distinct(_curves(neighbors, SPEEDS[:1]))
+    points = distinct(_curves(neighbors, SPEEDS[:1]))
     return [
         Group(
             f"sensitivity/{re.sub('[^a-z0-9.]+', '-', name)}",
@@ -111,5 +111,6 @@ def _curves(neighbors: Sequence[int], speeds: Sequence[float]) -> list[Point]:
     return grid({"target_speed": speeds, "fast": [MIXED, 0], "neighbors": neighbors})
 
 
-def _distinct(points: Sequence[Point]) -> tuple[Point, ...]:
+def distinct(points: Sequence[Point]) -> tuple[Point, ...]:
+    """Each point once, in order."""
     return tuple({tuple(point.items()): point for point in points}.values())
