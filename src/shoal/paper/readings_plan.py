@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from shoal.experiments.design import Design, Point, grid
-from shoal.paper.plan import FULL_STEPS, MIXED, QUICK_STEPS, SHARE_NEIGHBORS, SPEEDS, START_PLACES, Group, distinct
+from shoal.paper.plan import FULL_STEPS, MIXED, SHARE_NEIGHBORS, SPEEDS, START_PLACES, Group, distinct
 from shoal.paper.readings import Reading
 
 FINALISTS = 3  # the best of the screen, besides the printed reading
@@ -26,7 +26,7 @@ class Stage:
         return self.steps // 2 if reading.sequential and self.name == "screen" else self.steps
 
 
-SCREEN, FINAL = Stage("screen", QUICK_STEPS, 2), Stage("final", FULL_STEPS, 5)
+SCREEN, FINAL = Stage("screen", 10_000, 2), Stage("final", FULL_STEPS, 5)
 SCREEN_QUICK, FINAL_QUICK = Stage("screen", 1_000, 2, (10, 20, 30, 40, 49)), Stage("final", 2_000, 2)
 
 
