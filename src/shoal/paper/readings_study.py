@@ -9,8 +9,9 @@ from shoal.paper.frontier import frontier_table
 from shoal.paper.plan import QUICK_STEPS, SPEEDS, Group, Plan
 from shoal.paper.readings import Reading, printed, readings
 from shoal.paper.readings_plan import FINAL, FINAL_QUICK, FINALISTS, SCREEN, SCREEN_QUICK, Stage, groups_of
-from shoal.paper.reproduce import Report, run_plan
 from shoal.paper.results import Reproduction, Row
+from shoal.paper.running import Report, run_plan
+from shoal.paper.sensitivity import peak_table
 from shoal.paper.statements import Verdicts, holding, judge_statements, score, statements_of, verdict_on
 
 STUDY = "oceans2020-readings"
@@ -24,6 +25,12 @@ class Scored:
     stage: Stage
     found: Verdicts
     rows: list[Row]
+
+    @property
+    def peaks(self) -> list[Row]:
+        """Where its curves over k peak."""
+        table = peak_table([{**row, "variant": self.reading.name} for row in self.rows])
+        return [{"reading": row.pop("variant"), "stage": self.stage.name, **row} for row in table]
 
     @property
     def order(self) -> tuple[float, float, int]:
@@ -48,10 +55,11 @@ def run_study(out: Path, *, quick: bool = False, jobs: int | None = None, report
         quick,
         final.steps,
         final.seeds,
-        [row for each in (*screened, *finals) for row in each.rows],
+        [row for each in finals for row in each.rows],
         [],
         tables={
             "readings_scores": score_table(screened, finals, chosen.reading),
+            "readings_peaks": [row for each in (*finals, *screened) for row in each.peaks],
             "readings": readings_table(list(best.values()), chosen.reading),
             "frontier": frontier_table({name: each.found for name, each in best.items()}),
         },
@@ -94,6 +102,7 @@ def score_table(screened: Sequence[Scored], finals: Sequence[Scored], chosen: Re
                 "hold": holding(each.found),
                 "do_not": list(verdicts.values()).count("does not hold"),
                 "score": score(each.found),
+                "printed": each.reading == printed(),
                 "finalist": each.reading.name in finalists,
                 "chosen": each.reading == chosen,
             }

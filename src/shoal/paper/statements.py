@@ -6,7 +6,7 @@ read, so such a statement counts as its better speed; every other counts by both
 is worth 1, one that holds partly 1/2, any other nothing; the sum over all statements is the score.
 
 C13 speaks of runs of 100,000 steps; from shorter ones it is extrapolated: the deviation of a mean over a run falls with
-the square root of its length (and that of two or three runs is, in the median, smaller than that of five).
+the square root of its length.
 """
 
 import math
@@ -76,16 +76,14 @@ def holding(found: Verdicts) -> int:
 
 
 def at_full_length(rows: Sequence[Row], steps: int, metrics: Sequence[str] = ("time_on_target", "xi")) -> list[Row]:
-    """Rows whose spread over seeds is what five runs of 100,000 steps would show; their means stay."""
+    """Rows whose spread over seeds is what runs of 100,000 steps would show; their means stay."""
     cells: dict[tuple[object, ...], list[Row]] = {}
     for row in rows:
         if row.get("status", "done") == "done":
             cells.setdefault((row["fast"], row["neighbors"], row["target_speed"]), []).append(row)
+    factor = math.sqrt(steps / FULL_STEPS)
     scaled = []
     for cell in cells.values():
-        factor = math.sqrt(steps / FULL_STEPS)
-        if 1 < len(cell) < 5:
-            factor *= _median_of_deviation(5) / _median_of_deviation(len(cell))
         means = {metric: float(np.mean([row[metric] for row in cell])) for metric in metrics}
         scaled += [
             {**row, **{name: mean + factor * (row[name] - mean) for name, mean in means.items()}} for row in cell
@@ -108,8 +106,3 @@ def _judge(
     found["C12", at] = judges.c12(clusters)
     found["C13", at] = judges.c13(mine if steps == FULL_STEPS else at_full_length(mine, steps), FULL_STEPS)
     return found
-
-
-def _median_of_deviation(runs: int) -> float:
-    """Median of the standard deviation of so many normal values / the true one (Wilson and Hilferty 1931)."""
-    return math.sqrt((1.0 - 2.0 / (9.0 * (runs - 1))) ** 3)
