@@ -61,8 +61,8 @@ def _two_readings(claims: Sequence[Claim], refit: Sequence[Claim], titles: Mappi
         for one, other in zip(claims, refit, strict=True)
     )
     return (
-        '<table class="claims both"><thead><tr><th>Claim</th><th>What the paper says</th>'
-        "<th>As printed (oceans2020)</th><th>The reading that meets most (oceans2020-refit)</th><th>Read from</th></tr></thead>\n"
+        '<table class="claims both"><thead><tr><th>Claim</th><th>What the paper says</th><th>As printed (oceans2020)'
+        "</th><th>The reading that meets most (oceans2020-refit)</th><th>Read from</th></tr></thead>\n"
         f"<tbody>\n{rows}</tbody></table>"
     )
 

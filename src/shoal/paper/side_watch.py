@@ -32,7 +32,11 @@ class Watched(NamedTuple):
 
 
 def watch_sides(preset: str, steps: int, runs: int) -> Watched:
-    """Run the mixed swarm with adaptive and with equal constant a_R, and without a target at the largest a_R."""
+    """Run the mixed swarm with adaptive and with equal constant a_R, and without a target at the largest a_R.
+
+    steps : of each run, at least 400
+    """
+    steps = max(steps, 400)
     turnover = {
         (strength, speed): _each_run(
             preset, {"target_speed": speed, **(constant(strength) if strength else {})}, steps, runs
