@@ -7,12 +7,12 @@ from shoal.paper.figures_curves import k_figure, share_figure
 from shoal.paper.figures_heading import heading_figure
 from shoal.paper.figures_histograms import phi_figure
 from shoal.paper.figures_published import published_figure
-from shoal.paper.figures_readings import readings_figure
+from shoal.paper.figures_readings import readings_figure, readings_peaks_figure
 from shoal.paper.figures_sensitivity import sensitivity_figure
 from shoal.paper.figures_series import TIME_ON_TARGET, XI, XI_RAW
 from shoal.paper.figures_sides import sides_figure
 from shoal.paper.figures_snapshots import clustering_figure, locked_figure
-from shoal.paper.plan import PRINTED, REFIT
+from shoal.paper.plan import PRINTED, REFIT, SPEEDS
 from shoal.paper.results import Figure, Reproduction
 from shoal.paper.snapshots import STEPS, watch
 from shoal.scenario.load import load
@@ -44,20 +44,21 @@ def make_figures(reproduction: Reproduction) -> list[Figure]:
             _refit(k_figure(refit, "tot_k", "Time on target against connectivity", TIME_ON_TARGET, "k* =")),
             _refit(k_figure(refit, "xi_k", "Velocity fluctuation against connectivity", XI, "peak at k =")),
             sides_figure(reproduction.sides),
-            sensitivity_figure(reproduction.sensitivity),
+            *(sensitivity_figure(reproduction.sensitivity, speed) for speed in SPEEDS),
         ]
     )
 
 
 def make_study_figures(reproduction: Reproduction) -> list[Figure]:
-    """Return the figure of the study of the readings.
+    """Return the figures of the study of the readings.
 
     Raises
     ------
     MissingExtraError : matplotlib is not installed
     """
     tables = reproduction.tables
-    return _drawn([readings_figure(tables["readings_scores"], tables["readings_peaks"])])
+    scores, peaks = tables["readings_scores"], tables["readings_peaks"]
+    return _drawn([readings_figure(scores), readings_peaks_figure(scores, peaks)])
 
 
 def _refit(figure: Figure | None) -> Figure | None:

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from shoal.paper.figures_series import DOUBLE
 from shoal.paper.plan import MIXED
 from shoal.paper.results import Figure, Row
 from shoal.viz.style import FLEET_COLORS, GRAY, INK, new_figure, style
@@ -22,53 +23,68 @@ _PEAKS = (
     ("k of Ξ peak, all slow", 0, "xi_peak_k", 30.0),
 )
 _LIMITS = (8.0, 49.0)
-_LINE = 0.2  # [inch] height of a reading
+_LINE = 0.19  # [inch] height of a reading
 _SPEEDS = ((3.0, FLEET_COLORS[0], "o", 0.16), (5.0, "#D55E00", "s", -0.16))
 
 
-def readings_figure(scores: Sequence[Row], peaks: Sequence[Row]) -> Figure | None:
-    """Draw one line per reading and stage: a square per statement, how many hold and the score, and three peaks.
+def readings_figure(scores: Sequence[Row]) -> Figure | None:
+    """Draw one line per reading and stage: a square per statement, how many hold, and the score.
 
-    Parameters
-    ----------
     scores : rows of the score table
-    peaks : one row per reading, stage, swarm and target speed, with k_star and xi_peak_k and their intervals
     """
     if not scores:
         return None
     ids = [name for name in scores[0] if name[0] == "C" and name[1:].isdigit()]
-    names = [_name(row) for row in scores]
-    data: list[Row] = []
     with style():
-        height = 1.15 + _LINE * len(scores)
-        figure = new_figure(12.0, height)
-        wide = (0.285, 0.285)
-        top, tall = 1.0 - 0.62 / height, _LINE * len(scores) / height
-        axes = figure.add_axes((wide[0], top - tall, wide[1], tall))
+        figure = new_figure(DOUBLE, 1.0 + _LINE * len(scores))
+        figure.set_layout_engine("constrained", h_pad=0.05, w_pad=0.05)
+        axes = figure.subplots()
         _draw_verdicts(axes, scores, ids)
-        axes.set_yticks(range(len(names)), names, fontsize=7.2)
-        for line, row in enumerate(scores):
-            if row["chosen"]:
-                axes.get_yticklabels()[line].set_fontweight("bold")
-        for panel, (title, fast, column, aim) in enumerate(_PEAKS):
-            beside = figure.add_axes((0.665 + 0.113 * panel, top - tall, 0.1, tall))
-            data += _draw_peaks(beside, scores, peaks, title, fast, column, aim)
-        finals = sum(row["stage"] == "final" for row in scores)
-        for beside in figure.axes:
-            beside.axhline(finals - 0.5, color=INK, linewidth=1.0)
-            beside.set_ylim(len(scores) - 0.5, -0.5)
-        figure.legend(handles=_handles(), loc="lower left", bbox_to_anchor=(0.28, 0.0), ncols=6, borderaxespad=0.2)
-    data = [{"reading": row["reading"], "stage": row["stage"], **{id_: row[id_] for id_ in ids}, "hold": row["hold"],
-             "score": row["score"]} for row in scores] + data  # fmt: skip
+        _label_lines(axes, scores)
+        squares = _squares()
+        figure.legend(handles=squares, loc="outside lower left", ncols=len(squares), borderaxespad=0.2)
+    data = [
+        {"reading": row["reading"], "stage": row["stage"], **{id_: row[id_] for id_ in ids}}
+        | {"hold": row["hold"], "score": row["score"]}
+        for row in scores
+    ]
     screened = sum(row["stage"] == "screen" for row in scores)
     caption = (
-        f"{screened} readings of the paper, listed before any was run. Above the line the finalists "
+        f"{screened} readings of the paper, listed before any was run: the inertia ω, the half sides open to buoys and "
+        "to waypoints [m], how the target moves, and what else is read otherwise. Above the line the finalists "
         f"({_length(scores, 'final')}), below it the screen of all ({_length(scores, 'screen')}), best first; in bold "
         "the chosen one. Squares: the verdict on each statement of the paper, then how many hold, and the score (1 for "
-        "one that holds, 1/2 for one that holds partly). Right: where the curves over k peak, with 95 % intervals, and "
-        "in gray what the paper says, 2.5 to either side."
+        "each that holds, 1/2 for each that holds partly)."
     )
     return Figure("readings", "Which reading of the paper?", caption, figure, data)
+
+
+def readings_peaks_figure(scores: Sequence[Row], peaks: Sequence[Row]) -> Figure | None:
+    """Draw where the curves over k peak under every reading, the paper's values as bands.
+
+    Parameters
+    ----------
+    scores : rows of the score table, which give the order
+    peaks : one row per reading, stage, swarm and target speed, with k_star and xi_peak_k and their intervals
+    """
+    if not scores or not peaks:
+        return None
+    data: list[Row] = []
+    with style():
+        figure = new_figure(DOUBLE, 1.0 + _LINE * len(scores))
+        figure.set_layout_engine("constrained", h_pad=0.05, w_pad=0.05)
+        panels = figure.subplots(1, len(_PEAKS), sharey=True)
+        for axes, (title, fast, column, aim) in zip(panels, _PEAKS, strict=True):
+            data += _draw_peaks(axes, scores, peaks, title, fast, column, aim)
+        _label_lines(panels[0], scores)
+        for axes in panels[1:]:
+            _part(axes, scores)
+        figure.legend(handles=_dots(), loc="outside lower left", ncols=2, borderaxespad=0.2)
+    caption = (
+        "Where the curves over k peak under every reading, with 95 % intervals; in gray what the paper says, 2.5 to "
+        "either side. The order is that of the readings’ verdicts: finalists above the line."
+    )
+    return Figure("readings_peaks", "Peaks under every reading", caption, figure, data)
 
 
 def _draw_verdicts(axes: "Axes", scores: Sequence[Row], ids: Sequence[str]) -> None:
@@ -79,11 +95,11 @@ def _draw_verdicts(axes: "Axes", scores: Sequence[Row], ids: Sequence[str]) -> N
             color, sign = _SIGNS[row[id_]]
             axes.add_patch(Rectangle((place - 0.46, line - 0.44), 0.92, 0.88, facecolor=color, linewidth=0))
             ink = INK if row[id_] in ("holds partly", "undecided") else "white"
-            axes.text(place, line, sign, ha="center", va="center", color=ink, fontsize=7.5)
-        axes.text(len(ids) + 0.1, line, f"{row['hold']}", ha="center", va="center", fontsize=7.5)
-        axes.text(len(ids) + 1.3, line, f"{row['score']:g}", ha="center", va="center", fontsize=7.5, color=GRAY)
-    axes.set_xlim(-0.6, len(ids) + 1.9)
-    axes.set_xticks([*range(len(ids)), len(ids) + 0.1, len(ids) + 1.3], [*ids, "hold", "score"], fontsize=7.0)
+            axes.text(place, line, sign, ha="center", va="center", color=ink, fontsize=8.0)
+        axes.text(len(ids) + 0.2, line, f"{row['hold']}", ha="center", va="center", fontsize=8.0)
+        axes.text(len(ids) + 1.5, line, f"{row['score']:g}", ha="center", va="center", fontsize=8.0, color=GRAY)
+    axes.set_xlim(-0.6, len(ids) + 2.1)
+    axes.set_xticks([*range(len(ids)), len(ids) + 0.2, len(ids) + 1.5], [*ids, "hold", "score"])
     axes.xaxis.tick_top()
     axes.tick_params(length=0)
     for spine in axes.spines.values():
@@ -107,20 +123,37 @@ def _draw_peaks(
             axes.plot([at], [line - shift], marker, color=color, markersize=3.0)
             data.append({"reading": row["reading"], "stage": row["stage"], "quantity": title, "target_speed": speed,
                          "value": at, "low": low, "high": high})  # fmt: skip
-    axes.set_title(title, fontsize=8.0, pad=14)
+    axes.set_xlabel(title)
     axes.set_xlim(*_LIMITS)
     axes.set_xticks([10, 20, 30, 40])
-    axes.xaxis.tick_top()
-    axes.tick_params(axis="x", length=0, labelsize=7.0, pad=1)
-    axes.set_yticks([])
+    axes.tick_params(axis="x", length=0)
     axes.grid(axis="x")
-    for spine in axes.spines.values():
-        spine.set_visible(False)
     return data
 
 
+def _label_lines(axes: "Axes", scores: Sequence[Row]) -> None:
+    """A name at every line, the chosen one in bold."""
+    axes.set_yticks(range(len(scores)), [_name(row) for row in scores])
+    axes.tick_params(axis="y", length=0)
+    for row, label in zip(scores, axes.get_yticklabels(), strict=True):
+        if row["chosen"]:
+            label.set_fontweight("bold")
+    _part(axes, scores)
+
+
+def _part(axes: "Axes", scores: Sequence[Row]) -> None:
+    """A line under the finalists."""
+    axes.axhline(sum(row["stage"] == "final" for row in scores) - 0.5, color=INK, linewidth=1.0)
+    axes.set_ylim(len(scores) - 0.5, -0.5)
+
+
 def _name(row: Row) -> str:
-    return f"{row['reading']}{' (printed)' if row.get('printed') else ''}"
+    """Short, for a line."""
+    words = {"omega ": "ω ", ", box ": ", ", " of the predecessor": "", "one buoy after the other": "sequential"}
+    name = row["reading"]
+    for long, short in words.items():
+        name = name.replace(long, short)
+    return f"{name} (printed)" if row.get("printed") else name
 
 
 def _length(scores: Sequence[Row], stage: str) -> str:
@@ -128,13 +161,16 @@ def _length(scores: Sequence[Row], stage: str) -> str:
     return f"{max(row['steps'] for row in lengths):,} steps, {lengths[0]['seeds']} seeds" if lengths else "none"
 
 
-def _handles() -> list[Any]:
-    from matplotlib.lines import Line2D
+def _squares() -> list[Any]:
     from matplotlib.patches import Patch
 
-    squares = [Patch(facecolor=color, label=f"{sign} {verdict}") for verdict, (color, sign) in _SIGNS.items()]
-    dots = [
+    return [Patch(facecolor=color, label=f"{sign} {verdict}") for verdict, (color, sign) in _SIGNS.items()]
+
+
+def _dots() -> list[Any]:
+    from matplotlib.lines import Line2D
+
+    return [
         Line2D([], [], color=color, marker=marker, markersize=3.5, linewidth=1.1, label=f"target {speed:g} m/s")
         for speed, color, marker, _ in _SPEEDS
     ]
-    return [*squares, *dots]

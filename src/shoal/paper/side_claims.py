@@ -124,16 +124,10 @@ def c16(sides: Sides) -> Claim:
 def c17(main: Sequence[Row]) -> Claim:
     """Cases: k* with the slow target less that with the fast one, of both swarms."""
     speeds = values_of(main, "target_speed")
-    cases = [
-        judged(
-            swarm,
-            peak_difference(
-                *(peak(curve(main, "time_on_target", fast=fast, target_speed=v)) for v in (speeds[0], speeds[-1]))
-            ),
-            positive,
-        )
-        for fast, swarm in SWARMS.items()
-    ]
+    cases = []
+    for fast, swarm in SWARMS.items() if speeds else ():
+        ends = (curve(main, "time_on_target", fast=fast, target_speed=speed) for speed in (speeds[0], speeds[-1]))
+        cases.append(judged(swarm, peak_difference(*map(peak, ends)), positive))
     return _claim("C17", cases, "k* is lower with the faster target by {}", "tot_k", "k")
 
 
