@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from shoal.core.errors import ScenarioError
-from shoal.scenario.edit import ORIGIN, READING, apply, parse_assignment, parse_value
+from shoal.scenario.change import follow
+from shoal.scenario.edit import apply, parse_assignment, parse_value
 from shoal.scenario.load import read_table
-from shoal.scenario.on_track import put_on_track, sign_tracks
 
 
 def edited_table(
@@ -24,13 +24,8 @@ def edited_table(
     if track:
         # what the track decides, an option overrides
         late: dict[str, Any] = {name: wanted.pop(name) for name in ("steps", "target-speed") if name in wanted}
-        if ORIGIN in assigned:
-            wanted[ORIGIN] = assigned[ORIGIN]
-        reading = {name: assigned[f"targets.0.{name}"] for name in READING if f"targets.0.{name}" in assigned}
-        table = put_on_track(apply(table, wanted), track, track_id, reading)
-        wanted = late
-    table = apply(apply(table, wanted), assigned)
-    return sign_tracks(table, where=source) if track else table
+        return follow(table, wanted, late | assigned, track, track_id)
+    return apply(apply(table, wanted), assigned)
 
 
 def given_changes(assignments: Sequence[str] | None, **options: Any) -> dict[str, Any]:

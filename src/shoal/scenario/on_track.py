@@ -57,7 +57,7 @@ def put_on_track(
     return placed
 
 
-def sign_tracks(table: dict[str, Any], *, where: str = "scenario") -> dict[str, Any]:
+def sign_tracks(table: dict[str, Any]) -> dict[str, Any]:
     """Return the table with the digest of each recorded track, as it is read with the options that the table has.
 
     A digest that is there already stays, also one of None, which insists on nothing.
@@ -67,7 +67,7 @@ def sign_tracks(table: dict[str, Any], *, where: str = "scenario") -> dict[str, 
     TrackError : a track cannot be used
     ScenarioError : the scenario is not valid
     """
-    scenario = scenario_from(table, where=where)
+    scenario = scenario_from(table)
     targets = [
         each | {"digest": open_track(target, scenario.area.origin).digest}
         if isinstance(target, TrackTarget) and "digest" not in each
