@@ -8,6 +8,7 @@ import pytest
 import shoal
 from commands import shoal as command
 from shoal.core.errors import ScenarioError, StrategyError, UnknownNameError
+from shoal.strategies import CATALOGUE
 
 pytest.importorskip("scipy.stats", reason="comparisons need scipy: pip install 'shoal[sweep]'")
 
@@ -96,7 +97,10 @@ class TestStrategies:
         file.write_text(text.format("stay"))
         scope = {"__name__": "__main__"}
         exec(text.format("stay-too"), scope)
-        found = shoal.compare([file, scope["stay"]], metric="speed", steps=50, runs=2)
+        try:
+            found = shoal.compare([file, scope["stay"]], metric="speed", steps=50, runs=2)
+        finally:
+            del CATALOGUE["stay-too"]
         table = found.to_pandas().set_index("strategy")
         assert set(table.index) == {"stay", "stay-too", "lattice"}
         assert table.loc["stay", "mean"] == table.loc["stay-too", "mean"] < table.loc["lattice", "mean"]

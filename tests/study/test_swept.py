@@ -85,7 +85,7 @@ class TestLooks:
         file = tmp_path / "broken.py"
         file.write_text(
             "from typing import NamedTuple\nimport shoal\nclass P(NamedTuple):\n    a: float = 1.0\n"
-            "@shoal.strategy('broken', params=P)\ndef go(me, heard, memory, params, draw):\n    return me.x / 0.0, 0.0\n"
+            "@shoal.strategy('broken', params=P)\ndef go(me, heard, memory, params, draw):\n    return me.x / 0.0, 0.0\n"  # noqa: E501
         )
         swept = shoal.sweep("oceans2020", {"strategy": [file]}, steps=5, runs=1)
         assert len(swept.failures) == 1

@@ -59,7 +59,8 @@ class Sheet:
         return f"... and {left} more rows: see to_pandas()" if left > 0 else ""
 
     def _side(self, title: str) -> str:
-        return ' style="text-align: left"' if title in self.words else ' style="text-align: right"'
+        side = "left" if title in self.words else "right; white-space: nowrap"
+        return f' style="text-align: {side}; padding: 0.15em 0.6em"'
 
 
 def shown(text: str) -> str:

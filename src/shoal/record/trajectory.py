@@ -49,7 +49,7 @@ class Trajectory:
     def _repr_html_(self) -> str:
         """The arrays and their shapes for a notebook."""
         rows = [(name, " x ".join(map(str, each.shape)), str(each.dtype)) for name, each in self.arrays().items()]
-        return Sheet(self._head(), ("array", "shape", "type"), rows, words=("array",)).html()
+        return Sheet(f"Trajectory {self._head()}", ("array", "shape", "type"), rows, words=("array",)).html()
 
     def _head(self) -> str:
         (frames, agents), targets = self.x.shape, self.target_x.shape[1]

@@ -13,7 +13,6 @@ from shoal.experiments.replicate import Row
 from shoal.experiments.results import aggregate, seal
 from shoal.experiments.sweep import Stop
 from shoal.experiments.sweep import sweep as run_sweep
-from shoal.metrics.summary import METRICS
 from shoal.plot import curves
 from shoal.scenario.load import Source, load
 from shoal.study.folder import positive, progress_of, store_folder
@@ -91,11 +90,11 @@ class Swept:
 
     def _sheet(self) -> Sheet:
         groups = aggregate(self.rows, self.fields, SHOWN)
-        failed = self.failures
-        units = {name: METRICS[name].unit for name in SHOWN}
+        combinations = len({(row["scenario_hash"], row["seed"]) for row in self.rows})
+        failed = [error.splitlines()[0] for error in self.failures]
         return Sheet(
-            head=f"{self.scenario}: {len(groups)} combinations, {len(self.rows)} runs",
-            titles=(*self.fields, "runs", *(f"{name} [{unit}]" for name, unit in units.items())),
+            head=f"{self.scenario}: {combinations} combinations, {len(self.rows)} runs",
+            titles=(*self.fields, "runs", *SHOWN),
             rows=[
                 (
                     *(str(group[name]) for name in self.fields),
