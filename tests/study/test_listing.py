@@ -68,4 +68,4 @@ def test_one_that_cannot_says_why():
 def test_what_was_dropped_from_a_track_is_noted(tmp_path):
     rows = [f"2020-01-01T00:{minute:02}:00Z,{50 + minute / 1000},{minute / 1000}" for minute in range(20)]
     (tmp_path / "track.csv").write_text("\n".join(["time,lat,lon", *rows, rows[-1]]))
-    assert any("repeated" in note for note in shoal.check("oceans2020", target_track=tmp_path / "track.csv"))
+    assert any("repeating" in note for note in shoal.check("oceans2020", target_track=tmp_path / "track.csv"))
