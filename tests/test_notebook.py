@@ -31,7 +31,7 @@ def run_cell(text, number, scope):
     if shows:
         value = eval(compile(ast.Expression(last.value), name, "eval"), scope)
         looks = [getattr(value, look)() for look in ("_repr_html_", "_repr_png_", "__repr__") if hasattr(value, look)]
-        assert all(looks)
+        assert any(looks)
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda notebook: notebook.stem)
