@@ -25,7 +25,7 @@ def read_rows(folder: str | Path) -> tuple[list[str], list[Row]]:
     RecordError : the folder holds no sweep
     """
     with Store(folder, read_only=True) as store:
-        return json.loads(store.meta()["fields"]), store.rows()
+        return store.fields, store.rows()
 
 
 def varied_rows(results: Any) -> tuple[list[str], list[Row]]:
