@@ -17,6 +17,7 @@ from shoal.core.errors import RecordError
 from shoal.core.locks import NAME as LOCK
 from shoal.core.locks import FolderIsLocked, FolderLock, NoLocks
 
+MARK = b"shoal"  # is near the begin or the end of every picture, film and page that we make
 _PARTIAL = ".shoal-{}.partial"  # with a uuid
 _OF_NOBODY = ("lost+found", ".DS_Store")  # a new file system is empty, too
 
@@ -24,12 +25,13 @@ _OF_NOBODY = ("lost+found", ".DS_Store")  # a new file system is empty, too
 # --- files ---
 
 
-def check_file(path: str | Path, *, new: bool = False) -> Path:
+def check_file(path: str | Path, *, new: bool = False, ours: bool = False) -> Path:
     """Return where a file is written, links followed; to be called before the work whose result it holds.
 
     Parameters
     ----------
     new : refuse a name that is taken; else a file of this name will be replaced
+    ours : refuse to replace a file that Shoal did not make
 
     Raises
     ------
@@ -47,8 +49,10 @@ def check_file(path: str | Path, *, new: bool = False) -> Path:
             raise RecordError(where, "exists already", "name another one, or remove this one first")
         if place.exists() and not place.is_file():
             raise RecordError(where, "cannot be written: it is no plain file", "name a file")
-        if len(os.fsencode(place.name)) > 255:
-            raise RecordError(where, "cannot be written: its name is too long", "name it in 255 bytes or less")
+        if ours and place.exists() and not _is_marked(place):
+            raise RecordError(
+                where, "exists already, and was not made by Shoal", "name another file, or remove this one first"
+            )
         with (trial := _beside(place)).open("xb"):
             trial.unlink()
     except (OSError, ValueError) as error:
@@ -56,21 +60,28 @@ def check_file(path: str | Path, *, new: bool = False) -> Path:
     return place
 
 
+def _is_marked(file: Path) -> bool:
+    with file.open("rb") as stream:
+        head = stream.read(2**20)
+        stream.seek(max(0, file.stat().st_size - 2**16))
+        return MARK in (head + stream.read()).lower()
+
+
 @contextmanager
-def whole_file(path: str | Path, *, new: bool = False) -> Iterator[Path]:
+def whole_file(path: str | Path, *, new: bool = False, ours: bool = False) -> Iterator[Path]:
     """Yield a place to write to; what is there at the end becomes the file.
 
     Whatever ends it else, an interrupt too, leaves nothing, and what was there before is untouched.
 
     Parameters
     ----------
-    new : refuse a name that is taken; else replace a file of this name
+    new, ours : as `check_file`
 
     Raises
     ------
     RecordError : as `check_file`, or the operating system refuses
     """
-    place = check_file(path, new=new)
+    place = check_file(path, new=new, ours=ours)
     partial = _beside(place)
     try:
         yield partial
@@ -84,14 +95,14 @@ def whole_file(path: str | Path, *, new: bool = False) -> Iterator[Path]:
             partial.unlink(missing_ok=True)
 
 
-def write_whole(path: str | Path, content: bytes) -> None:
-    """Write a file that is either complete or not there.
+def write_whole(path: str | Path, content: bytes, *, ours: bool = False) -> None:
+    """Write a file that is either complete or not there; `ours` as `check_file`.
 
     Raises
     ------
     RecordError : it cannot be written
     """
-    with whole_file(path) as partial:
+    with whole_file(path, ours=ours) as partial:
         partial.write_bytes(content)
 
 
@@ -172,6 +183,27 @@ class OwnFolder:
             with suppress(OSError):
                 folder.rmdir()
         self._made = []
+
+
+def check_folder(path: str | Path, known: Iterable[str]) -> None:
+    """Refuse, before the work that goes there, a folder that cannot be written, or that holds nothing but other things.
+
+    Parameters
+    ----------
+    known : names of what we put there; one of them in it makes the folder ours
+
+    Raises
+    ------
+    RecordError : it is somebody else's, is being written by another process, or the operating system refuses
+    """
+    own = OwnFolder(path)
+    own.claim()
+    try:
+        content = own.content()
+    finally:
+        own.release()
+    if content and not set(content) & set(known):
+        raise RecordError(str(path), "is not empty, and not of this command", "name a new or empty folder")
 
 
 class WholeFolder:

@@ -248,7 +248,7 @@ def _connect(file: Path, mode: str | None) -> sqlite3.Connection:
     if mode is None:
         mode = "rw" if os.access(file, os.W_OK) and os.access(file.parent, os.W_OK) else "ro&immutable=1"
     address = f"file:{quote(os.path.abspath(file))}?mode={mode}"
-    database = sqlite3.connect(address, uri=True, check_same_thread=False, timeout=_PATIENCE, isolation_level="")
+    database: sqlite3.Connection = sqlite3.connect(address, uri=True, check_same_thread=False, timeout=_PATIENCE)
     database.row_factory = sqlite3.Row
     database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, 100_000_000)
     database.execute("PRAGMA trusted_schema=OFF")

@@ -58,16 +58,16 @@ def compare_strategies(
     direction = direction_of(metric)
     table = {_told(point): (point, values_of(strategies, metric)) for point, strategies in found}
     comparison = compare(table, baseline, {each.name for each in everybody if each.informed}, direction)
-    if figure:
-        from shoal.viz.files import save_figure
-
-        save_figure(comparison_figure(comparison, metric), figure)
-        note(f"figure: {figure}")
     about = {"scenario": scenario, "runs": design.runs, "steps": shown.steps, "seed": shown.seed}
     if as_json:
         sys.stdout.write(json.dumps(comparison_data(comparison, metric, direction, about)) + "\n")
     else:
         print_comparison(comparison, metric, direction, about)
+    if figure:
+        from shoal.viz.files import save_figure
+
+        save_figure(comparison_figure(comparison, metric), figure)
+        note(f"figure: {figure}")
     if out:
         note(f"all runs: {out} (shoal results {out})")
 

@@ -1,0 +1,24 @@
+"""SIGTERM (batch systems, kill) and SIGHUP (a closed terminal) end a command as Ctrl-C does."""
+
+import signal
+from types import FrameType
+
+
+class Ended(KeyboardInterrupt):
+    """A signal asks us to end; `number` is which."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+def heed_signals() -> None:
+    """Raise Ended on them from now on, but for one that was to be ignored, as nohup says."""
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)  # Windows has no SIGHUP
+        if number is not None and signal.getsignal(number) is signal.SIG_DFL:
+            signal.signal(number, _end)
+
+
+def _end(number: int, _: FrameType | None) -> None:
+    raise Ended(number)
