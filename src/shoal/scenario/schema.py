@@ -2,10 +2,12 @@
 
 import hashlib
 import json
-from typing import Annotated, Any, Literal, Self
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, Self, cast
 
 from pydantic import Field, model_validator
 
+from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.core.units import Degrees, Kilograms, Meters, MetersPerSecond, Seconds
 from shoal.scenario.frozen import Chance, Count, Frozen, NotNegative, Positive
 from shoal.scenario.strategy_choice import StrategyChoice
@@ -146,6 +148,41 @@ class Scenario(Frozen):
     targets: tuple[Target, ...] = Field(min_length=1, description="one or more targets")
     losses: tuple[Loss, ...] = Field(default=(), description="agents that are lost during the run")
     joins: tuple[Join, ...] = Field(default=(), description="agents that join during the run")
+
+    def with_(self, **changes: Any) -> "Scenario":
+        """Return a changed scenario, in the words of the command line, validated.
+
+        >>> scenario.with_(neighbors=10, target_speed="6 kn", strategy="encircle", **{"network.loss": 0.1})
+
+        Parameters
+        ----------
+        changes : shorthands (neighbors, fast, agents, target_speed, strategy, target_track, track_id), fields of a
+            scenario (steps, seed, ...) or paths such as network.loss, fleets.0.count; quantities may have a unit
+
+        Raises
+        ------
+        ScenarioError, TrackError, StrategyError : what cannot run
+        """
+        from shoal.scenario.load import load  # which needs this class
+
+        return load(self, **changes)
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Return a copy with whole fields changed, validated; see `with_`, which knows shorthands and paths.
+
+        Raises
+        ------
+        ScenarioError, StrategyError : unknown or wrong fields
+        """
+        if not update:
+            return super().model_copy(deep=deep)
+        for name in update:
+            if name not in type(self).model_fields:
+                hint = did_you_mean(name, type(self).model_fields).rstrip() or f"scenario.with_(**{{{name!r}: ...}})"
+                raise ScenarioError(name, f"is no field of a scenario (value {update[name]!r})", hint)
+        from shoal.scenario.load import scenario_from
+
+        return cast(Self, scenario_from({**vars(self), **update}))
 
     @property
     def counts(self) -> list[int]:
