@@ -20,5 +20,10 @@ def heed_signals() -> None:
             signal.signal(number, _end)
 
 
+def exit_code(interrupt: KeyboardInterrupt) -> int:
+    """128 + the number of the signal, as shells have it: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP."""
+    return 128 + (interrupt.number if isinstance(interrupt, Ended) else signal.SIGINT)
+
+
 def _end(number: int, _: FrameType | None) -> None:
     raise Ended(number)

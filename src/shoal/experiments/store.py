@@ -72,14 +72,13 @@ class Store:
                         self._where, "holds no sweep (it has no runs.sqlite)", "name a folder of shoal sweep"
                     )
                 self._database = _connect(file, "rw" if self._own else None)
-                if self._own:
-                    self._database.execute("PRAGMA journal_mode=WAL")
-                    self._database.execute("PRAGMA synchronous=NORMAL")
                 check_tables(self._database)
                 self._meta = read_meta(self._database, self._where)
                 if self._own:
                     self._check_identity(self._meta)
                     self.rows()  # before anything is added to it
+                    self._database.execute("PRAGMA journal_mode=WAL")
+                    self._database.execute("PRAGMA synchronous=NORMAL")
         except BaseException:
             self.close()
             raise
