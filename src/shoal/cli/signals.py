@@ -22,6 +22,7 @@ def heed_signals() -> None:
 
 def exit_code(interrupt: KeyboardInterrupt) -> int:
     """128 + the number of the signal, as shells have it: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP."""
+    eval("0")  # makes Python forget that it saw one in code from a string, as numba's; it would kill us with SIGINT
     return 128 + (interrupt.number if isinstance(interrupt, Ended) else signal.SIGINT)
 
 
