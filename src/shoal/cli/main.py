@@ -5,11 +5,11 @@ import sys
 
 from cyclopts import App, CycloptsError
 
+from shoal.cli.signals import exit_code, heed_signals
 from shoal.core.errors import ShoalError
 from shoal.version import VERSION
 
 BAD_INPUT = 2
-INTERRUPTED = 130
 
 app = App(
     name="shoal",
@@ -37,7 +37,8 @@ app.command("shoal.cli.scenario:schema", name="schema", help="Print the JSON Sch
 
 
 def main() -> None:
-    """Run the command line and exit: 0 fine, 2 bad input, 130 interrupted."""
+    """Run the command line and exit: 0 fine, 2 bad input, 130 interrupted (143, 129 by SIGTERM, SIGHUP)."""
+    heed_signals()
     sys.exit(run_command(sys.argv[1:]))
 
 
@@ -51,9 +52,9 @@ def run_command(tokens: list[str]) -> int:
     except ShoalError as error:
         _complain(str(error))
         return BAD_INPUT
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as error:
         _complain("interrupted; nothing was left half-written")
-        return INTERRUPTED
+        return exit_code(error)
     except BrokenPipeError:  # the reader of our output left, as `| head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return 0

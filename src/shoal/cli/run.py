@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from shoal.cli.options import edited_table
+from shoal.cli.places import check_places
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler, tell_of_compiling
 from shoal.cli.whole import MaybeWhole, Whole
@@ -59,9 +60,9 @@ def run(
     strategy
         A strategy's name (see `shoal strategies`) or a Python file that defines one.
     target_track
-        Recorded track to follow instead (CSV, GPX, NetCDF): the arena and all lengths are fitted around it.
+        Recorded track to follow instead (CSV, NMEA, GPX, KML, GeoJSON, NetCDF): arena and lengths are fitted around it.
     track_id
-        Which track of the file, as COLUMN=VALUE, such as mmsi=235069877.
+        Which track of the file, as COLUMN=VALUE, such as mmsi=235069877; all joins all.
     assignments
         Any field by its path, such as strategy.delta=0.02 or fleets.BoB-1.start=corner; may be repeated.
     every
@@ -86,10 +87,7 @@ def run(
         "steps": steps,
         "seed": seed,
     }
-    if figure:
-        from shoal.viz.files import figure_format
-
-        figure_format(figure)  # refused before the run, not after
+    check_places(out, figure)
     table = edited_table(scenario, changes, assignments or [], target_track, track_id)
     chosen = scenario_from(table, where=scenario)
     asked = read_table(scenario).get("network", {}).get("neighbors")
@@ -100,11 +98,6 @@ def run(
         record = simulate(chosen, runs=runs, jobs=jobs, every=every, out=out, progress=progress)
     for each in record.provenance["notes"]:
         note(each)
-    if figure:
-        from shoal.plot import save, summary
-
-        save(summary(record), figure)
-        note(f"figure: {figure}")
     if out:
         note(f"record: {out} (shoal show {out})")
     if json_:
@@ -113,3 +106,8 @@ def run(
         from shoal.cli.table import print_record
 
         print_record(record)
+    if figure:
+        from shoal.plot import save, summary
+
+        save(summary(record), figure)
+        note(f"figure: {figure}")

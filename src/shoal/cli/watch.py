@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
+from shoal.cli.older import opened
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler
@@ -60,9 +61,9 @@ def watch(
     strategy
         A strategy's name (see `shoal strategies`) or a Python file that defines one.
     target_track
-        Recorded track to follow instead (CSV, GPX, NetCDF): the arena and all lengths are fitted around it.
+        Recorded track to follow instead (CSV, NMEA, GPX, KML, GeoJSON, NetCDF): arena and lengths are fitted around it.
     track_id
-        Which track of the file, as COLUMN=VALUE, such as mmsi=235069877.
+        Which track of the file, as COLUMN=VALUE, such as mmsi=235069877; all joins all.
     assignments
         Any field by its path, such as strategy.delta=0.02; may be repeated.
     speed
@@ -161,11 +162,10 @@ def _record(session: "Session", out: Path) -> None:
 def _play_record(folder: str, host: str, port: int, browser: bool) -> None:
     from threading import Event
 
-    from shoal.record.files import open_record
     from shoal.view.replay import replay_page
     from shoal.view.server import page_app, serving
 
-    page = replay_page(open_record(folder))
+    page = replay_page(opened(folder))
     with suppress(KeyboardInterrupt), serving(page_app(page), host, port) as address:
         _announce(address, host, browser)
         Event().wait()

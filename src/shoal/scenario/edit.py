@@ -2,7 +2,7 @@
 
 import re
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,10 @@ from shoal.scenario.schema import Scenario
 from shoal.scenario.strategy_choice import StrategyChoice
 
 Table = dict[str, Any]
+
+TRACK = ("target_track", "track_id")  # see change.py
+ORIGIN = "area.origin"
+READING = ("file", "id", "max_gap", "max_speed", "day_first")  # fields of a target: which fixes of a file are used
 
 
 def apply(table: Table, changes: Mapping[str, Any]) -> Table:
@@ -36,10 +40,24 @@ def apply(table: Table, changes: Mapping[str, Any]) -> Table:
         elif key in Scenario.model_fields:
             changed[key] = plain(value)
         else:
-            known = [*SHORTHANDS, *Scenario.model_fields]
-            hint = did_you_mean(key, known) or f"there are: {', '.join(known)}; or a path such as network.loss; "
-            raise ScenarioError(name, f"is no field of a scenario (value {value!r})", hint.rstrip("; "))
+            check_words({name: value})
+    _drop_digests(changed, changes)
     return changed
+
+
+def check_words(changes: Mapping[str, Any], also: Iterable[str] = ()) -> None:
+    """Refuse what is no shorthand, field or path; `also` may have been meant.
+
+    Raises
+    ------
+    ScenarioError : it names the nearest that there is, or all
+    """
+    for name, value in changes.items():
+        key = name.replace("-", "_")
+        known = [*SHORTHANDS, *TRACK, *Scenario.model_fields, *also]
+        if "." not in name and key not in known:
+            hint = did_you_mean(key, known).rstrip() or f"there are: {', '.join(known)}; or a path such as network.loss"
+            raise ScenarioError(name, f"is no field of a scenario (value {value!r})", hint)
 
 
 def _rank(change: tuple[str, Any]) -> int:
@@ -73,7 +91,9 @@ def set_path(table: Table, path: str, value: Any) -> None:
 
 
 def parse_value(text: str) -> Any:
-    """Read a value as TOML would (number, true, list, "text"); anything else is text, such as 5 kn or sequential."""
+    """Read a value as TOML would (number, true, list, "text"), or null; anything else is text, such as 5 kn."""
+    if text == "null":
+        return None
     try:
         return tomllib.loads(f"value = {text}")["value"]
     except tomllib.TOMLDecodeError:
@@ -91,6 +111,16 @@ def parse_assignment(text: str) -> tuple[str, Any]:
     if not equals or not re.fullmatch(r"[\w.\-]+", path.strip()):
         raise ScenarioError(f"--set {text}", "is no assignment", "write path=value, such as network.neighbors=12")
     return path.strip(), parse_value(value.strip())
+
+
+def _drop_digests(table: Table, changes: Mapping[str, Any]) -> None:
+    """A recorded track that is read in another way is another one: the digest of the old one is void."""
+    targets = table.get("targets")
+    for n, target in enumerate(targets if isinstance(targets, list) else ()):
+        if isinstance(target, dict) and "digest" in target and f"targets.{n}.digest" not in changes:
+            reading = (ORIGIN, *(f"targets.{n}.{name}" for name in READING))
+            if any(name in changes for name in reading):
+                del target["digest"]
 
 
 def _set_neighbors(table: Table, value: Any) -> None:

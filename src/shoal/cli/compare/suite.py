@@ -6,7 +6,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from shoal.cli.compare.runs import store_folder, tell_failures
+from shoal.cli.compare.runs import tell_failures
 from shoal.cli.progress import note
 from shoal.cli.sweep_progress import sweep_progress
 
@@ -26,8 +26,8 @@ def compare_suite(
 ) -> None:
     """Run what is missing of a suite, and print its leaderboard."""
     from shoal.cli.compare.data import leaderboard_data
-    from shoal.cli.compare.figure import leaderboard_figure
     from shoal.cli.compare.table import print_leaderboard
+    from shoal.core.files import check_file
     from shoal.experiments.compiled_first import compiled_first
     from shoal.experiments.contenders import contenders
     from shoal.experiments.executors import in_threads
@@ -35,11 +35,14 @@ def compare_suite(
     from shoal.experiments.leaderboard_page import page_around, write_page
     from shoal.experiments.suite import read_suite, resized, run_suite, suite_values
     from shoal.strategies import CATALOGUE
+    from shoal.study.comparison_figure import leaderboard_figure
+    from shoal.study.folder import store_folder
 
     suite = resized(read_suite(name), runs=runs, steps=steps, seed=seed)
     everybody = contenders(named or sorted(CATALOGUE))
     if markdown:
         page_around(markdown, name)  # refused before the runs, not after
+        check_file(markdown)
     titles = [each.name for each in suite.conditions]
 
     def begin(title: str) -> None:
@@ -54,13 +57,13 @@ def compare_suite(
     if markdown:
         write_page(board, markdown, named)
         note(f"page: {markdown}")
+    if as_json:
+        sys.stdout.write(json.dumps(leaderboard_data(board)) + "\n")
+    else:
+        print_leaderboard(board)
     if figure:
         from shoal.viz.files import save_figure
 
         save_figure(leaderboard_figure(board), figure)
         note(f"figure: {figure}")
-    if as_json:
-        sys.stdout.write(json.dumps(leaderboard_data(board)) + "\n")
-    else:
-        print_leaderboard(board)
     note(f"{time.monotonic() - begun:.0f} s" + (f"; all runs: a sweep per condition in {out}" if out else ""))
