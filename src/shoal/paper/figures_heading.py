@@ -22,7 +22,7 @@ def heading_figure() -> Figure:
     """Draw a buoy, its heading, the bearing of the target, and phi, the cosine of the angle between them."""
     data: list[Row] = []
     with style():
-        figure = new_figure(7.16, 2.35)
+        figure = new_figure(7.16, 1.75)
         figure.set_layout_engine("constrained", w_pad=0.02)
         for axes, (name, angle) in zip(figure.subplots(1, len(_SKETCHES)), _SKETCHES, strict=True):
             _sketch(axes, angle)
@@ -66,8 +66,8 @@ def _sketch(axes: "Axes", angle: float) -> None:
         axes.add_patch(Arc((0, 0), 0.7, 0.7, theta1=_BEARING, theta2=heading, color=INK, linewidth=0.9))
         middle = math.radians(_BEARING + angle / 2)
         axes.text(0.5 * math.cos(middle), 0.5 * math.sin(middle), "θ", ha="center", va="center")
-    axes.set_xlim(-1.0, 1.6)
-    axes.set_ylim(-0.55, 1.15)
+    axes.set_xlim(-0.95, 1.5)
+    axes.set_ylim(-0.5, 1.05)
     axes.set_aspect("equal")
     axes.set_xticks([])
     axes.set_yticks([])

@@ -79,6 +79,7 @@ def readings_peaks_figure(scores: Sequence[Row], peaks: Sequence[Row]) -> Figure
         _label_lines(panels[0], scores)
         for axes in panels[1:]:
             _part(axes, scores)
+            axes.tick_params(axis="y", length=0)
         figure.legend(handles=_dots(), loc="outside lower left", ncols=2, borderaxespad=0.2)
     caption = (
         "Where the curves over k peak under every reading, with 95 % intervals; in gray what the paper says, 2.5 to "
