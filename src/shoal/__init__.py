@@ -1,4 +1,4 @@
-"""Shoal: design, test and deploy swarms that search for and track moving targets at sea.
+"""Shoal: simulate and compare swarms of buoys that search for and track moving targets at sea.
 
 >>> import shoal
 >>> record = shoal.simulate(shoal.load("oceans2020"), runs=5)

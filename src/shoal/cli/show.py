@@ -1,12 +1,12 @@
 """shoal show: the table and the figure of a saved record."""
 
 import json
-import sys
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
+from shoal.cli.output import write
 from shoal.cli.progress import note
 
 
@@ -38,6 +38,6 @@ def show(
         save(summary(opened), figure)
         note(f"figure: {figure}")
     if json_:
-        sys.stdout.write(json.dumps(opened.summary()) + "\n")
+        write(json.dumps(opened.summary()) + "\n")
     else:
         print_record(opened)

@@ -1,14 +1,12 @@
 """A record as a table that fits a terminal."""
 
 import math
-import sys
 from collections.abc import Mapping
 from typing import Any
 
-from rich.console import Console
 from rich.table import Table
-from rich.text import Text
 
+from shoal.cli.console import results_console, styled
 from shoal.metrics.summary import METRICS
 from shoal.record.choices import degree_text, strategy_text
 from shoal.record.record import Record
@@ -30,7 +28,7 @@ _OF_TARGETS = ("time_on_target", "first_detection", "reacquisition")
 
 def print_record(record: Record) -> None:
     """Print what was run, every metric with its interval, and where it comes from."""
-    console = Console(file=sys.stdout, highlight=False)
+    console = results_console()
     scenario, facts = record.scenario, record.facts
     fleets = " + ".join(
         f"{count} {name} ({speed:g} m/s{_joining(scenario, name)})"
@@ -38,7 +36,7 @@ def print_record(record: Record) -> None:
     )
     targets = ", ".join(_target(target) for target in scenario["targets"])
     runs = len(record.tallies)
-    console.print(f"[bold]{scenario['name']}[/bold]: {fleets}, k = {degree_text(scenario)}")
+    console.print(styled(scenario["name"], "bold") + styled(f": {fleets}, k = {degree_text(scenario)}", ""))
     console.print(f"strategy {strategy_text(scenario)}; target {targets}")
     console.print(
         f"{runs} run{'s' * (runs > 1)} of {scenario['steps']:,} steps of {scenario['time_step']:g} s, "
@@ -56,7 +54,7 @@ def print_record(record: Record) -> None:
     console.print("phi histogram, agents per step from -1 (away) to +1 (toward):")
     console.print("  " + " ".join(f"{agents:.2f}" for agents in record.phi_histogram().sum(axis=0)))
     method = "over runs" if runs > 1 else "by batch means"
-    console.print(f"[dim]intervals {method}; {record.provenance['seconds']:g} s[/dim]")
+    console.print(styled(f"intervals {method}; {record.provenance['seconds']:g} s", "dim"))
 
 
 def _add_parts(table: Table, record: Record) -> None:
@@ -64,7 +62,7 @@ def _add_parts(table: Table, record: Record) -> None:
     fleets = record.facts.fleets if len(record.facts.fleets) > 1 else ()
     by_fleet = {name: record.fleet_estimate(name) for name in _OF_FLEETS} if fleets else {}
     for fleet in fleets:
-        table.add_row(Text(f"fleet {fleet}"))
+        table.add_row(f"fleet {fleet}")
         for name, values in by_fleet.items():
             table.add_row(f"  {_label(name)}", *_cells(values[fleet]), _unit(METRICS[name].unit))
     targets = record.target_estimates()

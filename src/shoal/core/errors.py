@@ -3,6 +3,8 @@
 import difflib
 from collections.abc import Iterable
 
+from shoal.core.text import cut, readable
+
 
 class ShoalError(ValueError):
     """Base of every error Shoal raises on purpose; the command line exits with 2 on it.
@@ -19,7 +21,7 @@ class ShoalError(ValueError):
 
     def __str__(self) -> str:
         where, problem, fix = self.args
-        return f"{where}: {problem}\n  fix: {fix}"
+        return readable(f"{cut(where)}: {problem}\n  fix: {fix}")
 
 
 class ScenarioError(ShoalError):
@@ -44,10 +46,11 @@ class MissingExtraError(ShoalError):
     @classmethod
     def of(cls, package: str, extra: str, why: str) -> "MissingExtraError":
         """Return the one sentence: what to install and why."""
-        return cls(package, f"is not installed, and {why} needs it", f"pip install 'shoal[{extra}]'")
+        fix = f"pip install '.[{extra}]' in Shoal's folder, which you cloned"
+        return cls(package, f"is not installed, and {why} needs it", fix)
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """Return the question whether a known name was meant, a space behind it; nothing if none is near."""
-    near = difflib.get_close_matches(name, list(known), n=1)
+    near = difflib.get_close_matches(name[:100], list(known), n=1)
     return f"did you mean {near[0]!r}? " if near else ""

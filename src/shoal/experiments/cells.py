@@ -3,7 +3,9 @@
 import hashlib
 import json
 from dataclasses import dataclass
+from typing import Any
 
+from shoal.core.errors import ScenarioError
 from shoal.experiments.design import Design, Point
 from shoal.scenario.edit import apply
 from shoal.scenario.load import read_table, scenario_from
@@ -36,13 +38,25 @@ def make_cells(design: Design, changes: Point, *, independent: bool = False) -> 
     """
     base = apply(read_table(design.scenario), changes)
     cells: dict[str, Cell] = {}
+    files: dict[str, Any] = {}
     for point in design.points:
         told = ", ".join(f"{name}={value}" for name, value in point.items())
         scenario = scenario_from(apply(base, point), where=f"{design.scenario} ({told})" if told else design.scenario)
         if independent:
             scenario = scenario.model_copy(update={"seed": _seed_of(scenario)})
-        cells.setdefault(f"{scenario.hash}/{scenario.seed}", Cell(dict(point), scenario))
+        cells.setdefault(f"{scenario.hash}/{scenario.seed}", Cell(_shown(point, scenario, files), scenario))
     return list(cells.values())
+
+
+def _shown(point: Point, scenario: Scenario, files: dict[str, Any]) -> Point:
+    """A point whose strategy, if it is a file, is called by its name; two files of one name cannot be told apart."""
+    choice = point.get("strategy")
+    if not isinstance(choice, str):
+        return dict(point)
+    name = scenario.strategy.name
+    if files.setdefault(name, choice) != choice:
+        raise ScenarioError(f"{files[name]} and {choice}", f"are both called {name!r}", "give one another name")
+    return {**point, "strategy": name}
 
 
 def base_table(design: Design, changes: Point) -> Point:

@@ -3,11 +3,10 @@
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
-from shoal.core.errors import MissingExtraError
 from shoal.view.address import LOCAL, Guard, listen, names_of, reachable
+from shoal.view.libraries import require_libraries
 from shoal.view.page import LIVE_POLICY, assets
 from shoal.view.requests import LONGEST
 from shoal.view.session import Session
@@ -47,7 +46,7 @@ def serving(app: "Starlette", host: str = LOCAL, port: int = 0) -> Iterator[str]
     ShoalError : the address cannot be had
     MissingExtraError : uvicorn or websockets is not installed
     """
-    _require_libraries()
+    require_libraries()
     import uvicorn
 
     listener = listen(host, port)
@@ -75,7 +74,7 @@ def serving(app: "Starlette", host: str = LOCAL, port: int = 0) -> Iterator[str]
 
 def live_app(worker: Worker) -> "Starlette":
     """The page, and the WebSocket through which it sees and controls the worker's session."""
-    _require_libraries()
+    require_libraries()
     from starlette.applications import Starlette
     from starlette.routing import WebSocketRoute
 
@@ -90,7 +89,7 @@ def live_app(worker: Worker) -> "Starlette":
 
 def page_app(page: str) -> "Starlette":
     """One page that needs nothing else and says its policy itself."""
-    _require_libraries()
+    require_libraries()
     from starlette.applications import Starlette
 
     return Starlette(routes=_routes({"/": (page.encode(), "text/html")}, "frame-ancestors 'none'"))
@@ -109,9 +108,3 @@ def _routes(files: dict[str, tuple[bytes, str]], policy: str) -> list[Any]:
         return Route(path, answer, methods=["GET"])
 
     return [route(path, *file) for path, file in files.items()]
-
-
-def _require_libraries() -> None:
-    for name in ("starlette", "uvicorn", "websockets"):
-        if find_spec(name) is None:
-            raise MissingExtraError.of(name, "viewer", "watching a run in a browser")

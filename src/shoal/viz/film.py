@@ -113,6 +113,7 @@ def check_film(file: Path, look: FilmLook) -> str:
     for side in (look.width, look.height):
         if side is not None and not SMALLEST <= side <= LARGEST:
             raise ShoalError("size", f"has a side of {side} pixels", f"choose {SMALLEST} to {LARGEST}")
+    require_matplotlib()
     if kind != "png":
         find_ffmpeg()
     return kind

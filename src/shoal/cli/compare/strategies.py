@@ -1,12 +1,12 @@
 """shoal compare STRATEGIES: in one scenario, or in every variation of it."""
 
 import json
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from shoal.cli.compare.runs import store_folder, tell_failures
+from shoal.cli.output import write
 from shoal.cli.progress import note
 from shoal.cli.sweep_progress import sweep_progress
 
@@ -33,7 +33,7 @@ def compare_strategies(
     from shoal.cli.compare.data import comparison_data
     from shoal.cli.compare.figure import comparison_figure
     from shoal.cli.compare.table import print_comparison
-    from shoal.cli.options import given_changes
+    from shoal.cli.options import check_asked, given_changes, named
     from shoal.core.errors import ScenarioError
     from shoal.experiments.cells import make_cells
     from shoal.experiments.compare import comparison_design, run_comparison, values_of
@@ -48,6 +48,9 @@ def compare_strategies(
         raise ScenarioError(f"--metric {metric}", "is no metric", f"there are: {', '.join(METRICS)}")
     everybody = contenders(named)
     baseline = _baseline(baseline, [each.name for each in everybody])
+    options = [(f"--{name}", name) for name, value in (("steps", steps), ("seed", seed)) if value is not None]
+    asked = [("STRATEGIES", "strategy"), *options, *named("--set", assignments), *named("--vary", vary)]
+    check_asked(scenario, asked)
     changes = given_changes(assignments, steps=steps, seed=seed)
     design = comparison_design(scenario, everybody, runs or RUNS, dict(map(parse_vary, vary)))
     shown = make_cells(design, changes)[0].scenario
@@ -65,7 +68,7 @@ def compare_strategies(
         note(f"figure: {figure}")
     about = {"scenario": scenario, "runs": design.runs, "steps": shown.steps, "seed": shown.seed}
     if as_json:
-        sys.stdout.write(json.dumps(comparison_data(comparison, metric, direction, about)) + "\n")
+        write(json.dumps(comparison_data(comparison, metric, direction, about)) + "\n")
     else:
         print_comparison(comparison, metric, direction, about)
     if out:

@@ -1,12 +1,12 @@
 """shoal compare --suite: a leaderboard over fixed conditions."""
 
 import json
-import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
 
 from shoal.cli.compare.runs import store_folder, tell_failures
+from shoal.cli.output import write
 from shoal.cli.progress import note
 from shoal.cli.sweep_progress import sweep_progress
 
@@ -60,7 +60,7 @@ def compare_suite(
         save_figure(leaderboard_figure(board), figure)
         note(f"figure: {figure}")
     if as_json:
-        sys.stdout.write(json.dumps(leaderboard_data(board)) + "\n")
+        write(json.dumps(leaderboard_data(board)) + "\n")
     else:
         print_leaderboard(board)
     note(f"{time.monotonic() - begun:.0f} s" + (f"; all runs: a sweep per condition in {out}" if out else ""))

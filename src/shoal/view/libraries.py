@@ -1,0 +1,11 @@
+"""What the viewer needs beside the core."""
+
+from importlib.util import find_spec
+
+from shoal.core.errors import MissingExtraError
+
+
+def require_libraries() -> None:
+    for name in ("starlette", "uvicorn", "websockets"):
+        if find_spec(name) is None:
+            raise MissingExtraError.of(name, "viewer", "watching a run in a browser")
