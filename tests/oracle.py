@@ -141,7 +141,7 @@ def step(model: Model, state: State, r: np.ndarray, new_waypoint: np.ndarray) ->
         x[who], v[who] = move(model, x[who], limited[who])
         neighbors[who], followed[who] = near, best
 
-    phi = cosine_to_target(model, x, limited, state.target)
+    phi = cosine_to_target(model, x, limited, v, state.target)
     move_target(model, new, new_waypoint)
     return new, Measures(
         f_any=bool(on_target.any()),
@@ -223,11 +223,15 @@ def limit_speed(model, v, max_speed):
 
 
 def move(model, x, v):
-    """Step 7: move and clamp; where the clamp acted, v is the displacement really made."""
+    """Step 7: move and clamp; where the clamp acted, v is the displacement really made.
+
+    Being put inside by the wall is no motion: who is outside counts from the wall on.
+    """
     half = np.array([model.clamp_x, model.clamp_y])
     wanted = x + v
     reached = np.minimum(np.maximum(wanted, -half), half)
-    return reached, np.where(reached != wanted, reached - x, v)
+    begun = np.minimum(np.maximum(x, -half), half)
+    return reached, np.where(reached != wanted, reached - begun, v)
 
 
 def move_target(model, state, new_waypoint):
@@ -256,15 +260,15 @@ def move_target(model, state, new_waypoint):
         state.steps_on_waypoint = 0
 
 
-def cosine_to_target(model, x, v, target):
+def cosine_to_target(model, x, v, made, target):
     """phi_i: cosine of the angle between heading and bearing, 0 if stationary or at the target itself.
 
     x after the move, v after the speed rule but before the clamp, target before its own move. Stationary is
-    slower than 10 % of one's own top speed.
+    whose displacement after the clamp, `made`, is shorter than 10 % of one's own top speed.
     """
     bearing = target - x
     speed, distance = length(v), length(bearing)
-    counts = (speed >= 0.1 * model.max_speed) & (speed > 0.0) & (distance > 0.0)
+    counts = (length(made) >= 0.1 * model.max_speed) & (speed > 0.0) & (distance > 0.0)
     product = np.where(counts, speed * distance, 1.0)
     cosine = (v * bearing).sum(axis=1) / product
     return np.where(counts, np.minimum(np.maximum(cosine, -1.0), 1.0), 0.0)

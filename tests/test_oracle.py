@@ -335,10 +335,10 @@ class TestStep7MoveAndClamp:
         new, _ = advance(model(clamp_x=8.5, a_up=0.0), state([(8, 0), (0, 0)], v=[(0.5, 0), (0, 0)], a=0.0))
         assert (new.x[0, 0], new.v[0, 0]) == (8.5, 0.5)
 
-    def test_starting_beyond_the_wall_is_being_pulled_in_at_once(self):
+    def test_starting_beyond_the_wall_is_being_put_inside_at_once_without_having_moved(self):
         outside = state([(10, 0), (0, 0)], a=0.0)
         new, _ = advance(model(clamp_x=8.5, max_speed=0.1, a_up=0.0), outside)
-        assert (new.x[0, 0], new.v[0, 0]) == (8.5, -1.5)
+        assert (new.x[0, 0], new.v[0, 0]) == (8.5, 0.0)
 
     def test_agents_that_meet_in_a_corner_are_no_nan(self):
         corner = model(n=3, k=2, clamp_x=8.5, clamp_y=8.5)
@@ -518,9 +518,11 @@ class TestPhi:
         phi = self.phi((1, 1), x=(8.5, 0), target=(8.5, 9), clamp_x=8.5, max_speed=2.0)
         assert phi == pytest.approx(math.sqrt(0.5))
 
-    def test_stationary_is_judged_before_the_clamp(self):
-        """An agent pressing on the east wall with all its might is not stationary, though it stands still."""
-        assert self.phi((1, 0), x=(8.5, 0), target=(0, 0), clamp_x=8.5, max_speed=2.0) == -1.0
+    def test_stationary_is_judged_after_the_clamp(self):
+        """An agent pressing on the east wall with all its might stands still; one that slides along it does not."""
+        assert self.phi((1, 0), x=(8.5, 0), target=(0, 0), clamp_x=8.5, max_speed=2.0) == 0.0
+        sliding = self.phi((1, 1), x=(8.5, 0), target=(0, 1), clamp_x=8.5, max_speed=2.0)
+        assert sliding == pytest.approx(-math.sqrt(0.5))
 
     def test_stationary_is_judged_after_the_cap(self):
         assert self.phi((1, 0), max_speed=0.1) == 1.0

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from coasting import coasting
-from shoal.metrics.heading_bearing import CENTERS, bin_of, is_stationary
+from shoal.metrics.heading_bearing import CENTERS, bin_of, is_stationary, which_stationary
 
 FAR = (9.0, 9.0)
 
@@ -117,8 +117,20 @@ class TestStationary:
         assert bins_of(simulation) == [10]
         assert simulation.tally.stationary.sum(axis=0).tolist() == [0, 1]
 
-    def test_an_agent_pressing_on_the_wall_is_not(self):
+    def test_an_agent_pressing_on_the_wall_is(self):
         simulation = coasting([(10.0, 0.0), FAR], [(1, 0), (1, 0)], makes=[(1, 1.0), (1, 1.0)])
-        assert bins_of(simulation) == [0]
+        assert bins_of(simulation) == [5]
         assert simulation.swarm.vx[0] == 0.0
+        assert simulation.tally.stationary.sum(axis=0).tolist() == [1, 0]
+
+    def test_an_agent_sliding_along_the_wall_heads_where_it_wanted(self):
+        """Its heading is the velocity before the wall, though it moves along it."""
+        simulation = coasting([(10.0, 0.0), FAR], [(0.8, 0.6), (1, 0)], makes=[(1, 1.0), (1, 1.0)])
+        assert bins_of(simulation) == [1]  # phi = -0.8 or so
+        assert (simulation.swarm.vx[0], simulation.swarm.vy[0]) == pytest.approx((0.0, 0.6))
         assert simulation.tally.stationary.sum() == 0
+
+    def test_frames_are_judged_by_the_same_rule(self):
+        vx = np.array([[0.0, 0.0999, 0.1001], [0.26, 0.0, 1.0]])
+        still = which_stationary(vx, np.zeros((2, 3)), np.array([1.0, 1.0, 1.0]))
+        assert still.tolist() == [[True, True, False], [False, True, False]]

@@ -6,6 +6,8 @@ import pytest
 import replay
 from replay import START_STEP, TARGET_STREAM, split, target_box, uniform
 from scenarios import fleets, scenario
+from shoal.runs import simulate
+from shoal.scenario.load import load
 from shoal.simulation import Simulation
 
 PLACEMENT = 2**20
@@ -20,15 +22,15 @@ def start_key(simulation):
 
 
 class TestAgents:
-    """Uniform over the arena, or over a tenth of its sides."""
+    """Uniform inside the wall, or over a tenth of its sides; over the whole arena only where asked for."""
 
     @pytest.mark.parametrize(("seed", "run"), [(1, 0), (1, 5), (2**64 - 1, 3)])
     def test_start_where_their_draws_say(self, seed, run):
         simulation = started({"seed": seed}, run)
         keys = [split(split(start_key(simulation), i), PLACEMENT) for i in range(50)]
         expected = np.array([[uniform(key, 0), uniform(key, 1)] for key in keys])
-        np.testing.assert_allclose(simulation.swarm.x[:50], 15.0 * (2 * expected[:, 0] - 1), rtol=0, atol=1e-14)
-        np.testing.assert_allclose(simulation.swarm.y[:50], 10.0 * (2 * expected[:, 1] - 1), rtol=0, atol=1e-14)
+        np.testing.assert_allclose(simulation.swarm.x[:50], 13.5 * (2 * expected[:, 0] - 1), rtol=0, atol=1e-14)
+        np.testing.assert_allclose(simulation.swarm.y[:50], 8.5 * (2 * expected[:, 1] - 1), rtol=0, atol=1e-14)
 
     def test_at_rest(self):
         simulation = started()
@@ -40,7 +42,12 @@ class TestAgents:
 
     @pytest.mark.parametrize(
         ("start", "low", "high"),
-        [("uniform", (-15, -10), (15, 10)), ("center", (-1.5, -1.0), (1.5, 1.0)), ("corner", (-15, -10), (-12, -8))],
+        [
+            ("uniform", (-13.5, -8.5), (13.5, 8.5)),
+            ("center", (-1.35, -0.85), (1.35, 0.85)),
+            ("corner", (-13.5, -8.5), (-10.8, -6.8)),
+            ("arena", (-15, -10), (15, 10)),
+        ],
     )
     def test_fill_their_place(self, start, low, high):
         many = fleets((2000, 1.0))
@@ -56,8 +63,40 @@ class TestAgents:
         makes = fleets((10, 2.6), (40, 1.0))
         makes[0]["start"] = "corner"
         swarm = started({"fleets": makes}).swarm
-        assert (swarm.x[:10] <= -12.0).all()
-        assert (swarm.x[10:50] > -12.0).mean() > 0.8
+        assert (swarm.x[:10] <= -10.8).all()
+        assert (swarm.x[10:50] > -10.8).mean() > 0.8
+
+
+class TestTheWall:
+    """An agent that starts outside it is put inside, and no metric takes that for motion."""
+
+    @pytest.mark.parametrize("start", ["uniform", "center", "corner", "arena"])
+    @pytest.mark.parametrize("order", ["synchronous", "sequential"])
+    def test_nobody_is_ever_faster_than_its_top_speed(self, start, order):
+        changes = {f"fleets.{fleet}.start": start for fleet in (0, 1)}
+        frames = started({**changes, "motion.update_order": order, "area.agent_margin": 4.0}).advance(30, every=1)
+        top = np.repeat([2.6, 1.0], [15, 35])
+        assert (np.hypot(frames.vx, frames.vy) <= top * (1 + 1e-12)).all()
+        moved = np.hypot(np.diff(frames.x, axis=0), np.diff(frames.y, axis=0)) / 0.1
+        jumps = (moved > top * (1 + 1e-9)).any(axis=1)
+        assert jumps.tolist() == [start == "arena", *[False] * 28]
+
+    def test_who_is_only_put_inside_stands_still(self):
+        simulation = started({"fleets.0.start": "arena", "fleets.1.start": "arena", "area.agent_margin": 9.0})
+        outside = (np.abs(simulation.swarm.x[:50]) > 7.0) & (np.abs(simulation.swarm.y[:50]) > 2.0)
+        assert outside.sum() > 5
+        simulation.advance(1)
+        assert np.abs(simulation.swarm.x[:50]).max() <= 6.0
+        assert np.abs(simulation.swarm.y[:50]).max() <= 1.0
+        assert not np.any([simulation.swarm.vx[:50][outside], simulation.swarm.vy[:50][outside]])
+        assert simulation.tally.distance.sum(axis=0)[outside].sum() == 0.0
+        assert simulation.tally.stationary.sum() >= outside.sum()
+
+    @pytest.mark.parametrize("preset", ["oceans2020", "aamas2020"])
+    def test_power_is_no_more_than_all_at_top_speed_take(self, preset):
+        record = simulate(load(preset).model_copy(update={"steps": 20}), runs=3)
+        for fleet in record.scenario["fleets"]:
+            assert record.fleet_estimate("power")[fleet["name"]].mean <= fleet["max_speed"] ** 3
 
 
 class TestWaypointTarget:

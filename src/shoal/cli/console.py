@@ -39,3 +39,8 @@ def progress_console() -> Console:
 def styled(text: str, style: str) -> Text:
     """A text in a style, as it can be shown."""
     return Text(plain(text, "\n"), style=style)
+
+
+def small_print(text: str, below: str) -> Text:
+    """A text, and another one dimmed below it."""
+    return styled(f"{text}\n", "").append_text(styled(below, "dim"))

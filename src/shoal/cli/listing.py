@@ -7,7 +7,7 @@ from cyclopts import Parameter
 from rich.table import Table
 from rich.text import Text
 
-from shoal.cli.console import results_console, styled
+from shoal.cli.console import results_console, small_print, styled
 from shoal.cli.output import write
 from shoal.cli.progress import note
 
@@ -52,12 +52,7 @@ def strategies(*, json_: Annotated[bool, Parameter(name="--json", negative=())] 
         ]
         write(json.dumps(rows) + "\n")
     else:
-        _print_rows(
-            [
-                (each.name, styled(f"{each.summary}\n", "").append_text(styled(each.reference or each.source, "dim")))
-                for each in known
-            ]
-        )
+        _print_rows([(each.name, small_print(each.summary, each.reference or each.source)) for each in known])
 
 
 def _print_rows(rows: list[tuple[str, Text]]) -> None:

@@ -9,7 +9,6 @@ from shoal.scenario.edit import apply, parse_assignment, parse_value, refuse_con
 from shoal.scenario.load import read_table
 from shoal.scenario.on_track import put_on_track
 
-
 _MOST = {"runs": 1_000_000, "max_runs": 1_000_000, "jobs": 1024}
 
 
@@ -21,7 +20,7 @@ def edited_table(
         raise ScenarioError("--track-id", "needs --target-track", "name the file that holds the track")
     table = read_table(source)
     options = [(f"--{name}", name) for name, value in changes.items() if value is not None]
-    check_asked(table, [*options, *named("--set", assignments)])
+    check_asked(table, [*options, *as_options("--set", assignments)])
     wanted = {name: value for name, value in changes.items() if value is not None}
     for name in ("target-speed", "neighbors"):
         if isinstance(text := wanted.get(name), str):
@@ -41,7 +40,7 @@ def given_changes(assignments: Sequence[str] | None, **options: Any) -> dict[str
     return changes | {name: value for name, value in options.items() if value is not None}
 
 
-def named(option: str, texts: Sequence[str]) -> list[tuple[str, str]]:
+def as_options(option: str, texts: Sequence[str]) -> list[tuple[str, str]]:
     """Options such as --set FIELD=..., as they are written and by their fields."""
     fields = [text.partition("=")[0].strip() for text in texts]
     return [(f"{option} {field}", field) for field in fields]

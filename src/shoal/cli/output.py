@@ -1,4 +1,4 @@
-"""The two streams of the command line: what cannot be told on stderr is left out; what cannot be printed is an error."""
+"""The two streams: what cannot be told on stderr is left out; a result that cannot be printed is an error."""
 
 import os
 import sys

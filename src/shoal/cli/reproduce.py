@@ -52,16 +52,15 @@ def reproduce(
 def _print_claims(found: "Reproduction") -> None:
     from rich.table import Table
 
-    from shoal.cli.console import results_console, styled
+    from shoal.cli.console import results_console, small_print
 
     console = results_console()
     table = Table(box=None, padding=(0, 2, 0, 0))
     for title in ("", "verdict", "claim, and what was measured"):
         table.add_column(title)
     for claim in found.claims:
-        table.add_row(
-            claim.id, claim.verdict, styled(claim.statement, "").append_text(styled(f"\n{claim.measured}", "dim"))
-        )
+        verdict = small_print(claim.verdict, claim.cases.replace(", ", "\n"))
+        table.add_row(claim.id, verdict, small_print(claim.statement, claim.measured))
     console.print(table)
     length = f"{found.seeds} seeds of {found.steps:,} steps"
     console.print(f"{found.paper}, {length}; in brackets 95 % intervals; {found.seconds:.0f} s", style="dim")

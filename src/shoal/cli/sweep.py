@@ -12,7 +12,6 @@ from shoal.cli.startup import load_compiler
 from shoal.cli.sweep_progress import sweep_progress
 from shoal.cli.whole import MaybeNumber, MaybeSteps, MaybeWhole, Whole
 
-
 _MOST_RUNS = 10_000_000
 
 
@@ -72,7 +71,7 @@ def sweep(
         Print the design, the number of runs and an estimate of the time; run nothing.
     """
     load_compiler()
-    from shoal.cli.options import check_asked, check_positive, given_changes, named
+    from shoal.cli.options import as_options, check_asked, check_positive, given_changes
     from shoal.core.errors import ScenarioError
     from shoal.experiments.cells import make_cells
     from shoal.experiments.executors import in_threads, on_dask
@@ -85,8 +84,8 @@ def sweep(
     if scheduler and executor != "dask":
         raise ScenarioError("--scheduler", "is of Dask", "add --executor dask, or leave it out")
     options = [(f"--{name}", name) for name, value in (("steps", steps), ("seed", seed)) if value is not None]
-    varied = named("--vary", vary or []) or [(f"{scenario} {field}", field) for field in design.fields]
-    check_asked(design.scenario, [*options, *named("--set", assignments or []), *varied])
+    varied = as_options("--vary", vary or []) or [(f"{scenario} {field}", field) for field in design.fields]
+    check_asked(design.scenario, [*options, *as_options("--set", assignments or []), *varied])
     changes = given_changes(assignments, steps=steps, seed=seed)
     cells = make_cells(design, changes, independent=independent)
     total = len(cells) * design.runs

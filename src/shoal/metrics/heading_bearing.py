@@ -1,6 +1,7 @@
 """Heading-bearing correlation phi: who moves toward the target (+1), away from it (-1), or not at all (0)."""
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -15,8 +16,9 @@ CENTERS = np.linspace(-1.0, 1.0, BINS)
 def tally_heading_bearing(tally, batch, swarm, agents, targets, bearing_x, bearing_y, phi):
     """Add phi_i = cos(angle between heading and bearing to the nearest target) to the histogram of i's fleet.
 
-    Kwa et al., Heterogeneous Swarms, Eq. 8. Positions after the move, targets before theirs; the heading is that of the
-    speed-limited velocity before the wall. Stationary agents count as phi = 0, as does an agent exactly on a target.
+    Kwa et al., Heterogeneous Swarms, Eq. 8. Positions after the move, targets before theirs. The heading is that of the
+    speed-limited velocity before the wall; stationary is judged by the displacement really made, so that an agent which
+    presses against the wall is. Stationary agents count as phi = 0, as does an agent exactly on a target.
     """
     _nearest_bearing(swarm, agents, targets, bearing_x, bearing_y)
     for i in range(agents):
@@ -24,14 +26,14 @@ def tally_heading_bearing(tally, batch, swarm, agents, targets, bearing_x, beari
         vy = swarm.command_y[i]
         along = vx * bearing_x[i] + vy * bearing_y[i]
         length2 = (vx * vx + vy * vy) * (bearing_x[i] * bearing_x[i] + bearing_y[i] * bearing_y[i])
-        moves = not is_stationary(vx, vy, swarm.max_speed[i]) and length2 > 0.0
+        moves = not is_stationary(swarm.vx[i], swarm.vy[i], swarm.max_speed[i]) and length2 > 0.0
         phi[i] = along / math.sqrt(length2) if moves else 0.0
     begin = 0
     for fleet in range(swarm.fleet_end.size):
         end = swarm.fleet_end[fleet]
         stationary = 0
         for i in range(begin, end):
-            stops = is_stationary(swarm.command_x[i], swarm.command_y[i], swarm.max_speed[i])
+            stops = is_stationary(swarm.vx[i], swarm.vy[i], swarm.max_speed[i])
             stationary += stops & (swarm.alive[i] > 0.0)
         for i in range(begin, end):
             tally.histogram[batch, fleet, bin_of(phi[i])] += swarm.alive[i] > 0.0
@@ -41,9 +43,17 @@ def tally_heading_bearing(tally, batch, swarm, agents, targets, bearing_x, beari
 
 @kernel
 def is_stationary(vx, vy, max_speed):
-    """Whether an agent is slower than a tenth of its top speed."""
+    """Whether an agent is slower than a tenth of its top speed.
+
+    vx, vy : displacement really made in the step, after the wall, divided by the time-step [m/s]
+    """
     limit = STATIONARY * max_speed
     return vx * vx + vy * vy < limit * limit
+
+
+def which_stationary(vx: Any, vy: Any, max_speed: Any) -> Any:
+    """The same of arrays that broadcast, such as the velocities (K, N) of frames and the top speeds (N,) [m/s]."""
+    return getattr(is_stationary, "py_func", is_stationary)(vx, vy, max_speed)
 
 
 @kernel

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from shoal.metrics.heading_bearing import STATIONARY
+from shoal.metrics.heading_bearing import which_stationary
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.scenario.load import load
@@ -47,12 +47,12 @@ def watch(scenario: Scenario | None = None, steps: int = STEPS, run: int = 0) ->
 def find_locked(record: Record, run: int = 0) -> Locked:
     """Return the first frame with the most locked agents while another is on target.
 
-    Locked is who has a_R at its maximum and is slower than a tenth of its top speed, as in the phi histogram.
+    Locked is who has a_R at its maximum and is stationary, as in the histogram of phi.
     """
     frames = record.trajectories[run]
     top = np.repeat(record.facts.max_speeds, record.facts.counts)
     pushing = np.asarray(frames.memory["repulsion"]) >= record.scenario["strategy"]["repulsion_max"] - _ROUNDING
-    locked = pushing & (np.hypot(frames.vx, frames.vy) < STATIONARY * top)
+    locked = pushing & which_stationary(frames.vx, frames.vy, top)
     count = np.where(np.asarray(frames.on_target).any(axis=1), locked.sum(axis=1), -1)
     frame = int(count.argmax())
     return Locked(frame, locked[frame], pushing[frame])

@@ -65,8 +65,9 @@ class Fleet(Frozen):
     sensor_radius: Annotated[Meters, NotNegative] = Field(
         default=0.0, description="a target is detected when its rim is within this of the agent [m]"
     )
-    start: Literal["uniform", "center", "corner"] = Field(
-        default="uniform", description="where agents start: over the arena, or over a tenth of it"
+    start: Literal["uniform", "center", "corner", "arena"] = Field(
+        default="uniform",
+        description="where agents start: all over where they may go, in a tenth of its sides, or all over the arena",
     )
     neighbors: Degree | None = Field(default=None, description="k of these agents; default: network.neighbors")
     strategy: StrategyChoice | None = Field(default=None, description="of these agents; default: the scenario's")

@@ -14,7 +14,7 @@ from shoal.viz.film_page import FilmPage, film_size
 from shoal.viz.scene import Parts
 from shoal.viz.snapshot import frames_of
 from shoal.viz.stretch import stretch_of
-from shoal.viz.style import style
+from shoal.viz.style import require_matplotlib, style
 
 FORMATS = ("mp4", "gif", "png")
 SMALLEST, LARGEST = 200, 4096  # [pixel] a side

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from shoal.metrics.heading_bearing import CENTERS, STATIONARY
+from shoal.metrics.heading_bearing import CENTERS, which_stationary
 from shoal.record.record import Record
 from shoal.viz.histogram import PHI_EDGES, label_phi
 from shoal.viz.stretch import Stretch
@@ -102,7 +102,7 @@ def phi_of_frames(record: Record, run: int, chosen: npt.NDArray[np.intp]) -> npt
         nearest = np.hypot(dx, dy).argmin(axis=0), np.arange(top.size)
         dx, dy, vx, vy = dx[nearest], dy[nearest], frames.vx[at], frames.vy[at]
         length = np.hypot(dx, dy) * np.hypot(vx, vy)
-        moves = (np.hypot(vx, vy) >= STATIONARY * top) & (length > 0)
+        moves = ~which_stationary(vx, vy, top) & (length > 0)
         phi = np.divide(dx * vx + dy * vy, length, out=np.zeros(top.size), where=moves)
         bins = np.clip((phi + 1.0) * 5.0 + 0.5, 0, CENTERS.size - 1).astype(int)
         alive = np.asarray(frames.alive[at])

@@ -44,10 +44,14 @@ def limit_maneuver(swarm, first, last, time_step):
 
 @kernel
 def move(position, velocity, command, clamp, time_step):
-    """Advance one axis by a time-step and stop at the wall, where the velocity becomes the displacement really made."""
+    """Advance one axis by a time-step and stop at the wall, where the velocity becomes the displacement really made.
+
+    An agent that starts outside the wall is put inside, which is no motion of its own: it counts from the wall on.
+    """
     for i in range(position.size):
         here = position[i]
         free = here + command[i] * time_step
         there = min(max(free, -clamp), clamp)
-        velocity[i] = command[i] if there == free else (there - here) / time_step
+        inside = min(max(here, -clamp), clamp)
+        velocity[i] = command[i] if there == free else (there - inside) / time_step
         position[i] = there

@@ -3,16 +3,19 @@
 from shoal.core.draws import START_STEP, split, uniform
 from shoal.core.kernel import kernel
 
-PLACES = ("uniform", "center", "corner")
+PLACES = ("uniform", "center", "corner", "arena")
 _CENTER = 1
 _CORNER = 2
+_ARENA = 3
 _PLACEMENT = 1 << 20  # a purpose that no strategy draws for
 _CLUSTER = 0.1  # side of the cluster, as a share of the arena's
 
 
 @kernel
 def place(swarm, world, places, run_key):
-    """Scatter agents uniformly over the arena, or over a tenth of its sides at the center or in a corner.
+    """Scatter agents uniformly over where they may go, or over a tenth of its sides at the center or in a corner.
+
+    Or over the whole arena, as in the runs that were published: the wall puts those outside it inside in step 1.
 
     places : index into PLACES of each fleet
     """
@@ -27,5 +30,5 @@ def place(swarm, world, places, run_key):
         elif where == _CORNER:
             x = _CLUSTER * (x + 1.0) - 1.0
             y = _CLUSTER * (y + 1.0) - 1.0
-        swarm.x[i] = world.half_x * x
-        swarm.y[i] = world.half_y * y
+        swarm.x[i] = (world.half_x if where == _ARENA else world.clamp_x) * x
+        swarm.y[i] = (world.half_y if where == _ARENA else world.clamp_y) * y

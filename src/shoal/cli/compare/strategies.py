@@ -33,7 +33,7 @@ def compare_strategies(
     from shoal.cli.compare.data import comparison_data
     from shoal.cli.compare.figure import comparison_figure
     from shoal.cli.compare.table import print_comparison
-    from shoal.cli.options import check_asked, given_changes, named
+    from shoal.cli.options import as_options, check_asked, given_changes
     from shoal.core.errors import ScenarioError
     from shoal.experiments.cells import make_cells
     from shoal.experiments.compare import comparison_design, run_comparison, values_of
@@ -49,7 +49,7 @@ def compare_strategies(
     everybody = contenders(named)
     baseline = _baseline(baseline, [each.name for each in everybody])
     options = [(f"--{name}", name) for name, value in (("steps", steps), ("seed", seed)) if value is not None]
-    asked = [("STRATEGIES", "strategy"), *options, *named("--set", assignments), *named("--vary", vary)]
+    asked = [("STRATEGIES", "strategy"), *options, *as_options("--set", assignments), *as_options("--vary", vary)]
     check_asked(scenario, asked)
     changes = given_changes(assignments, steps=steps, seed=seed)
     design = comparison_design(scenario, everybody, runs or RUNS, dict(map(parse_vary, vary)))
