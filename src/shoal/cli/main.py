@@ -71,7 +71,7 @@ def run_command(tokens: list[str]) -> int:
         tell(str(ShoalError(told, error.strerror or str(error), "name a file or folder that you may use")))
         return BAD_INPUT
     except RecursionError:
-        tell("an input is nested too deeply\n  fix: a scenario is three levels deep at most")
+        tell("an input is nested too deeply\n  fix: a scenario is four levels deep at most")
         return BAD_INPUT
     except MemoryError:
         tell("there is not enough memory\n  fix: ask for less: fewer agents, runs, frames or combinations")

@@ -7,6 +7,7 @@ from typing import Any
 from rich.table import Table
 
 from shoal.cli.console import results_console, styled
+from shoal.core.text import plain
 from shoal.metrics.summary import METRICS
 from shoal.record.choices import degree_text, strategy_text
 from shoal.record.record import Record
@@ -31,12 +32,12 @@ def print_record(record: Record) -> None:
     console = results_console()
     scenario, facts = record.scenario, record.facts
     fleets = " + ".join(
-        f"{count} {name} ({speed:g} m/s{_joining(scenario, name)})"
+        f"{count} {plain(name)} ({speed:g} m/s{_joining(scenario, name)})"
         for name, count, speed in zip(facts.fleets, facts.counts, facts.max_speeds, strict=True)
     )
     targets = ", ".join(_target(target) for target in scenario["targets"])
     runs = len(record.tallies)
-    console.print(styled(scenario["name"], "bold") + styled(f": {fleets}, k = {degree_text(scenario)}", ""))
+    console.print(styled(plain(scenario["name"]), "bold") + styled(f": {fleets}, k = {degree_text(scenario)}", ""))
     console.print(f"strategy {strategy_text(scenario)}; target {targets}")
     console.print(
         f"{runs} run{'s' * (runs > 1)} of {scenario['steps']:,} steps of {scenario['time_step']:g} s, "
@@ -62,7 +63,7 @@ def _add_parts(table: Table, record: Record) -> None:
     fleets = record.facts.fleets if len(record.facts.fleets) > 1 else ()
     by_fleet = {name: record.fleet_estimate(name) for name in _OF_FLEETS} if fleets else {}
     for fleet in fleets:
-        table.add_row(f"fleet {fleet}")
+        table.add_row(f"fleet {plain(fleet)}")
         for name, values in by_fleet.items():
             table.add_row(f"  {_label(name)}", *_cells(values[fleet]), _unit(METRICS[name].unit))
     targets = record.target_estimates()
@@ -110,4 +111,4 @@ def _target(target: dict[str, object]) -> str:
         return f"at {target['speed']:g} m/s"
     if "speed" in target:
         return f"{target['kind']} at {target['speed']:g} m/s"
-    return f"{target['kind']} {target.get('id') or ''}".strip()
+    return plain(f"{target['kind']} {target.get('id') or ''}".strip())

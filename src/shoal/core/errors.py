@@ -46,7 +46,7 @@ class MissingExtraError(ShoalError):
     @classmethod
     def of(cls, package: str, extra: str, why: str) -> "MissingExtraError":
         """Return the one sentence: what to install and why."""
-        fix = f"pip install '.[{extra}]' in Shoal's folder, which you cloned"
+        fix = f"in your clone of Shoal: pip install '.[{extra}]'"
         return cls(package, f"is not installed, and {why} needs it", fix)
 
 

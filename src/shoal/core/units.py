@@ -7,10 +7,12 @@ from typing import Annotated, Any
 
 from shoal.core.text import quoted
 
+_KNOT = 1852.0 / 3600.0  # [m/s]
+
 _TO_SI: dict[str, dict[str, float]] = {
     "m": {"m": 1.0, "km": 1000.0, "nmi": 1852.0, "NM": 1852.0, "ft": 0.3048},
-    "m/s": dict.fromkeys(("kn", "kt", "knot", "knots"), 1852.0 / 3600.0) | {"m/s": 1.0, "km/h": 1.0 / 3.6},
-    "m/s^2": {"m/s^2": 1.0, "m/s2": 1.0, "m/s/s": 1.0, "kn/s": 1852.0 / 3600.0, "km/h/s": 1.0 / 3.6},
+    "m/s": {"m/s": 1.0, "kn": _KNOT, "kt": _KNOT, "km/h": 1.0 / 3.6, "knot": _KNOT, "knots": _KNOT},
+    "m/s^2": {"m/s^2": 1.0, "m/s2": 1.0, "m/s/s": 1.0, "kn/s": _KNOT, "km/h/s": 1.0 / 3.6},
     "s": {"s": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0},
     "kg": {"kg": 1.0, "t": 1000.0},
     "deg": {"deg": 1.0, "rad": 57.29577951308232},

@@ -101,8 +101,8 @@ def parse_values(text: str, where: str) -> list[Any]:
     parts = text.split(":")
     if 2 <= len(parts) <= 3 and all(type(parse_value(part)) in (int, float) for part in parts):
         start, stop, step = (*map(parse_value, parts), 1)[:3]
-        if not all(-_FARTHEST < number < _FARTHEST for number in (start, stop, step)):
-            raise ScenarioError(where, f"the range {cut(text)} is not finite", "write numbers, such as 10:49:3")
+        if not all(-_FARTHEST <= number <= _FARTHEST for number in (start, stop, step)):
+            raise ScenarioError(where, f"the range {cut(text)} has no end", "write numbers, such as 10:49:3")
         if step <= 0 or stop < start:
             fix = "write from:to:step with from <= to and step > 0"
             raise ScenarioError(where, f"the range {cut(text)} is empty", fix)

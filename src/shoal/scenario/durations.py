@@ -1,6 +1,7 @@
 """How long a run is: so many steps, or a duration such as "2 h"."""
 
 import math
+import re
 from typing import Annotated, Any
 
 from pydantic import WithJsonSchema
@@ -41,7 +42,7 @@ def steps_of(duration: str, time_step: Any) -> int:
 def with_whole_steps(table: Any) -> Any:
     """Return a scenario's table with its steps as a number, if they were written as a duration."""
     steps = table.get("steps") if isinstance(table, dict) else None
-    if not isinstance(steps, str):
+    if not isinstance(steps, str) or not re.match(r"[-+.0-9]+[ \t]*[a-z]", steps):
         return table
     try:
         return {**table, "steps": steps_of(steps, table.get("time_step"))}

@@ -99,12 +99,15 @@ def _fields_of(table: Table, name: str) -> list[str]:
 
 
 def parse_value(text: str) -> Any:
-    """Read a value as TOML would (number, true, list, "text"); anything else is text, such as 5 kn or sequential."""
+    """Read a value as TOML would (number, true, list, "text"); anything else is text, such as 5 kn or sequential.
+
+    Numbers are decimal ones: 1_000 and 0x10 are text, too.
+    """
     try:
         value = tomllib.loads(f"value = {text}")["value"]
     except (ValueError, RecursionError):  # no TOML, or nothing that Python reads
         return text
-    return text if isinstance(value, (int, float)) and "_" in text else value
+    return text if isinstance(value, (int, float)) and re.search("[0-9]_|0[xob]", text) else value
 
 
 def parse_assignment(text: str) -> tuple[str, Any]:

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
-from shoal.core.text import LONGEST, checked_name
+from shoal.core.text import checked_name
 from shoal.core.units import Share
 
 
@@ -18,5 +18,5 @@ Positive = Field(gt=0)
 NotNegative = Field(ge=0)
 Count = Annotated[int, Field(strict=True, gt=0, le=10**12)]  # strict: neither true nor "15" is a number
 Chance = Annotated[Share, Field(strict=True, ge=0, le=1)]
-Name = Annotated[str, Field(min_length=1, max_length=LONGEST), AfterValidator(checked_name)]
+Name = Annotated[str, Field(min_length=1), AfterValidator(checked_name)]
 MOST_ENTRIES = 1000  # of a list of a scenario

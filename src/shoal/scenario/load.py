@@ -13,12 +13,14 @@ from pydantic import ValidationError
 
 from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.core.text import cut, quoted
+from shoal.scenario.frozen import MOST_ENTRIES
 from shoal.scenario.plugins import find_strategy, load_strategies
 from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Join, Loss, Motion, Network, Scenario
 from shoal.scenario.strategy_choice import StrategyParamsError, params_model
 from shoal.scenario.targets import TARGETS
 
 LARGEST = 10**6  # bytes of a scenario file
+_DEPTH = "a scenario is four levels deep at most"
 MOST_TOLD = 19  # problems of a scenario beside the first
 
 
@@ -58,7 +60,7 @@ def table_of(source: str | Path) -> dict[str, Any]:
     except tomllib.TOMLDecodeError as error:
         raise ScenarioError(str(source), f"is not valid TOML: {error}", "see https://toml.io for the syntax") from None
     except RecursionError:
-        raise ScenarioError(str(source), "is nested too deeply", "a scenario is three levels deep at most") from None
+        raise ScenarioError(str(source), "is nested too deeply", _DEPTH) from None
     except ValueError:  # Python reads no integer of more than 4,300 digits
         raise ScenarioError(str(source), "holds a number of thousands of digits", "write a shorter one") from None
 
@@ -75,6 +77,10 @@ def scenario_from(table: Mapping[str, Any], *, where: str = "scenario", text: st
         fix = "give the table of a scenario; shoal.load reads one from a file or a preset"
         raise ScenarioError(where, f"{quoted(table)} is no table of fields", fix)
     table = dict(table)
+    try:
+        _refuse_crowds(table, where)
+    except RecursionError:
+        raise ScenarioError(where, "is nested too deeply", _DEPTH) from None
     if "strategy" in table:
         table["strategy"] = load_strategies(table["strategy"])
     if isinstance(table.get("fleets"), (list, tuple)):
@@ -85,9 +91,19 @@ def scenario_from(table: Mapping[str, Any], *, where: str = "scenario", text: st
         problems = [((*_strategy_path(error.table, table), *each["loc"]), each) for each in error.error.errors()]
     except ValidationError as error:
         problems = [(each["loc"], each) for each in error.errors()]
-    except RecursionError:
-        raise ScenarioError(where, "is nested too deeply", "a scenario is three levels deep at most") from None
     raise _as_scenario_error(problems, table, where, text)
+
+
+def _refuse_crowds(part: Any, where: str, path: tuple[Any, ...] = ()) -> None:
+    """Refuse a table or list with more entries than any scenario has, before each of them is an error of its own."""
+    if not isinstance(part, (Mapping, list, tuple)):
+        return
+    if len(part) > MOST_ENTRIES:
+        raise ScenarioError(
+            f"{where} {_dotted(path)}".rstrip(), f"has {len(part):,} entries", f"write {MOST_ENTRIES:,} at most"
+        )
+    for key, each in part.items() if isinstance(part, Mapping) else enumerate(part):
+        _refuse_crowds(each, where, (*path, key))
 
 
 def _with_own_strategy(fleet: Any) -> Any:

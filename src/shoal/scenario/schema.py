@@ -28,8 +28,8 @@ Degree = Count | Literal["all"]
 
 
 def _sentence(text: str) -> str:
-    if any(hides(each) for each in text if each not in "\n\t"):
-        raise ValueError(f"{quoted(text)} holds a control character; leave it out")
+    if len(text) > 2000 or any(hides(each) for each in text if each not in "\n\t"):
+        raise ValueError(f"{quoted(text)} is no sentence; write 2000 characters at most, none of them a control one")
     return text
 
 
@@ -147,9 +147,7 @@ class Scenario(Frozen):
     """All a run needs, nothing it produces."""
 
     name: Name = Field(default="scenario", description="what reports call it")
-    description: Annotated[str, AfterValidator(_sentence)] = Field(
-        default="", max_length=2000, description="one sentence"
-    )
+    description: Annotated[str, AfterValidator(_sentence)] = Field(default="", description="one sentence")
     time_step: Annotated[Seconds, Positive] = Field(description="dt [s]")
     steps: Steps = Field(description='time-steps of a run; or its duration, such as "2 h"')
     seed: Annotated[int, Field(strict=True, ge=0, lt=2**64)] = Field(

@@ -1,6 +1,7 @@
 """How every figure looks: one palette, one set of rc values, one way to make a page."""
 
 import threading
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
@@ -86,7 +87,8 @@ def style() -> Iterator[None]:
     require_matplotlib()
     import matplotlib.style
 
-    with _LOCK, matplotlib.style.context(RC, after_reset=True):
+    with _LOCK, matplotlib.style.context(RC, after_reset=True), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph .* missing from font")  # a box stands for it
         yield
 
 
