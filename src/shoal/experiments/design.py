@@ -10,7 +10,7 @@ from typing import Any
 from shoal.core.errors import MissingExtraError, ScenarioError
 from shoal.core.text import cut, quoted
 from shoal.scenario.edit import parse_value
-from shoal.scenario.load import presets, table_of
+from shoal.scenario.load import presets, raw_table
 
 MOST_POINTS = 1_000_000  # combinations of a design
 
@@ -119,7 +119,7 @@ def is_design_file(source: str) -> bool:
     """Whether a TOML file describes a sweep rather than a scenario."""
     if source in presets() or not source.endswith(".toml") or not Path(source).is_file():
         return False
-    table = table_of(source)
+    table = raw_table(source)
     return any(key in table for key in ("vary", "points"))
 
 
@@ -130,7 +130,7 @@ def read_design(source: str) -> Design:
     ------
     ScenarioError : unknown fields or values
     """
-    table = table_of(source)
+    table = raw_table(source)
     unknown = set(table) - {"scenario", "runs", "mode", "vary", "points", "samples", "seed"}
     if unknown:
         known = "scenario, runs, mode, vary, points, samples, seed"

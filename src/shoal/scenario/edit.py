@@ -1,4 +1,4 @@
-"""Changes to a scenario's raw table, before it is validated: what --fast, --set and sweeps do."""
+"""Changes to a scenario's raw table, before it is validated: what --fast, --set, sweeps and `with_` do."""
 
 import re
 import tomllib
@@ -11,6 +11,10 @@ from typing import Any
 from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.core.text import cut, quoted
 from shoal.core.units import Unit
+from shoal.scenario.frozen import plain
+from shoal.scenario.plugins import name_of
+from shoal.scenario.schema import Scenario
+from shoal.scenario.strategy_choice import StrategyChoice
 
 Table = dict[str, Any]
 
@@ -18,21 +22,35 @@ Table = dict[str, Any]
 def apply(table: Table, changes: Mapping[str, Any]) -> Table:
     """Return a changed copy of a table; names are shorthands (see SHORTHANDS) or dotted paths like network.neighbors.
 
+    Whole fields are set first, then shorthands, then paths into them, in whatever order they are given.
+
     Raises
     ------
     ScenarioError : a path that does not exist, or a shorthand that this scenario has no place for
     """
-    changed: Table = _copy(table)
-    for name, value in sorted(changes.items(), key=lambda change: change[0] != "agents"):  # others count on them
+    changed: Table = plain(table)
+    for name, value in sorted(changes.items(), key=_rank):
         key = name.replace("-", "_")
         if key in SHORTHANDS:
-            SHORTHANDS[key](changed, value)
+            SHORTHANDS[key](changed, plain(value))
+        elif "." in name:
+            set_path(changed, name, plain(value))
+        elif key in Scenario.model_fields:
+            changed[key] = plain(value)
         else:
-            set_path(changed, name, value)
+            known = [*SHORTHANDS, *Scenario.model_fields]
+            hint = did_you_mean(key, known) or f"there are: {', '.join(known)}; or a path such as network.loss; "
+            raise ScenarioError(name, f"is no field of a scenario (value {quoted(value)})", hint.rstrip("; "))
     emptied = {name.split(".")[0] for name, value in changes.items() if name.endswith(".count") and value == 0}
     for name in emptied & {"fleets", "losses", "joins"}:  # none of them is no entry
         changed[name] = [each for each in changed[name] if not (isinstance(each, dict) and each.get("count") == 0)]
     return changed
+
+
+def _rank(change: tuple[str, Any]) -> int:
+    """Which change comes first: what others count on."""
+    name = change[0].replace("-", "_")
+    return 3 if "." in name else 0 if name not in SHORTHANDS else 1 if name == "agents" else 2
 
 
 def set_path(table: Table, path: str, value: Any) -> None:
@@ -44,18 +62,18 @@ def set_path(table: Table, path: str, value: Any) -> None:
         if isinstance(here, list):
             here = here[_index(here, part, where)]
         elif not isinstance(here, dict):
-            raise ScenarioError(f"--set {path}", f"{where!r} is no field of a table", "mend the scenario first")
-        elif part == "strategy" and isinstance(here.get(part), str):
-            here[part] = here = {"name": here[part]}
+            raise ScenarioError(path, f"{where!r} is no field of a table", "mend the scenario first")
+        elif part == "strategy" and isinstance(here.get(part), (str, StrategyChoice)):
+            here[part] = here = _strategy_table(here[part])
         elif isinstance(here.get(part), (dict, list)):
             here = here[part]
         elif at == 0 and part not in here and part in ("area", "network", "motion", "strategy"):
             here = here.setdefault(part, {})
         else:
             hint = did_you_mean(part, here).rstrip() or f"there are: {', '.join(here)}"
-            raise ScenarioError(f"--set {path}", f"the scenario has no {where!r}", hint)
+            raise ScenarioError(path, f"the scenario has no {where!r}", hint)
     if not isinstance(here, dict):
-        raise ScenarioError(f"--set {path}", "names a whole entry of a list", f"name a field of it: {path}.FIELD=VALUE")
+        raise ScenarioError(path, "names a whole entry of a list", f"name a field of it: {path}.FIELD=VALUE")
     here[last] = value
 
 
@@ -178,12 +196,26 @@ def _set_target_speed(table: Table, value: Any) -> None:
 
 
 def _set_strategy(table: Table, value: Any) -> None:
-    """Another strategy with its defaults (the same one keeps its parameters), or a file that defines one."""
-    old = table.get("strategy")
-    if isinstance(value, str) and (value.endswith(".py") or "/" in value):
-        table["strategy"] = {"file": str(Path(value).resolve())}
-    elif not (isinstance(old, dict) and old.get("name") == value):
-        table["strategy"] = {"name": value}
+    """Another strategy with its defaults (the same one keeps its parameters), or a file that defines one.
+
+    A name asks for the strategy that has it now: a hash of its source is dropped.
+    """
+    old, name = _strategy_table(table.get("strategy")), name_of(value)
+    if isinstance(name, str) and (name.endswith(".py") or "/" in name):
+        table["strategy"] = {"file": str(Path(name).resolve())}
+    elif not isinstance(name, str):
+        table["strategy"] = name
+    elif old.get("name") == name:
+        table["strategy"] = {key: kept for key, kept in old.items() if key != "source" or "file" in old}
+    else:
+        table["strategy"] = {"name": name}
+
+
+def _strategy_table(choice: Any) -> Table:
+    """The table of a strategy that is one, a loaded one or a name; an empty one of anything else."""
+    if isinstance(choice, StrategyChoice):
+        return choice.flat()
+    return {"name": choice} if isinstance(choice, str) else choice if isinstance(choice, dict) else {}
 
 
 SHORTHANDS: dict[str, Callable[[Table, Any], None]] = {
@@ -222,10 +254,4 @@ def _index(entries: list[Any], part: str, where: str) -> int:
     names = [str(each.get("name", n) if isinstance(each, dict) else n) for n, each in enumerate(entries)]
     if part in names:
         return names.index(part)
-    raise ScenarioError(f"--set {where}", f"there is no entry {part!r}", f"there are: {', '.join(names)}")
-
-
-def _copy(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _copy(item) for key, item in value.items()}
-    return [_copy(item) for item in value] if isinstance(value, (list, tuple)) else value
+    raise ScenarioError(where, f"there is no entry {part!r}", f"there are: {', '.join(names)}")

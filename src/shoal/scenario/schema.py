@@ -2,10 +2,12 @@
 
 import hashlib
 import json
-from typing import Annotated, Any, Literal, Self
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, Self, cast
 
 from pydantic import AfterValidator, Field, model_validator
 
+from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.core.text import hides, quoted
 from shoal.core.units import (
     DegreesPerSecond,
@@ -166,6 +168,41 @@ class Scenario(Frozen):
 
     _whole_steps = model_validator(mode="before")(with_whole_steps)
 
+    def with_(self, **changes: Any) -> "Scenario":
+        """Return a changed scenario, in the words of the command line, validated.
+
+        >>> scenario.with_(neighbors=10, target_speed="6 kn", strategy="encircle", **{"network.loss": 0.1})
+
+        Parameters
+        ----------
+        changes : shorthands (neighbors, fast, agents, target_speed, strategy, target_track, track_id), fields of a
+            scenario (steps, seed, ...) or paths such as network.loss, fleets.0.count; quantities may have a unit
+
+        Raises
+        ------
+        ScenarioError, TrackError, StrategyError : what cannot run
+        """
+        from shoal.scenario.load import load  # which needs this class
+
+        return load(self, **changes)
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Return a copy with whole fields changed, validated; see `with_`, which knows shorthands and paths.
+
+        Raises
+        ------
+        ScenarioError, StrategyError : unknown or wrong fields
+        """
+        if not update:
+            return super().model_copy(deep=deep)
+        for name in update:
+            if name not in type(self).model_fields:
+                hint = did_you_mean(name, type(self).model_fields).rstrip() or f"scenario.with_(**{{{name!r}: ...}})"
+                raise ScenarioError(name, f"is no field of a scenario (value {quoted(update[name])})", hint)
+        from shoal.scenario.load import scenario_from
+
+        return cast(Self, scenario_from({**vars(self), **update}))
+
     @property
     def counts(self) -> list[int]:
         """Agents of each fleet, those who join later too."""
@@ -224,7 +261,7 @@ class Scenario(Frozen):
         named |= {f"joins.{number}": join.fleet for number, join in enumerate(self.joins)}
         for name, fleet in named.items():
             if fleet is not None and fleet not in self.fleet_names:
-                raise ValueError(f"{name}.fleet is {fleet!r}, no fleet; there are: {', '.join(self.fleet_names)}")
+                raise ValueError(f"{name}.fleet is {quoted(fleet)}, no fleet; there are: {', '.join(self.fleet_names)}")
         return self
 
     @model_validator(mode="after")
