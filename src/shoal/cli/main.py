@@ -4,7 +4,7 @@ import sys
 
 from cyclopts import App, CycloptsError
 
-from shoal.cli.output import CANNOT_PRINT, drop_stdout, silence_stderr, tell
+from shoal.cli.output import CANNOT_PRINT, CannotPrintError, drop_stdout, guarded_stdout, silence_stderr, tell
 from shoal.core.errors import ShoalError
 from shoal.core.text import readable
 from shoal.version import VERSION
@@ -46,13 +46,11 @@ def run_command(tokens: list[str]) -> int:
     """Run one command and return its exit code; every error of the user is one message on stderr."""
     if sys.stderr is None:
         silence_stderr()
-    if sys.stdout is None:
-        return _cannot_print("standard output is closed")
     try:
         if any("\0" in token for token in tokens):
             raise ShoalError("command line", "holds a NUL", "leave it out")
-        app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
-        sys.stdout.flush()
+        with guarded_stdout():
+            app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
     except CycloptsError as error:
         tell(readable(f"{_one_line(error)}\n  fix: see `shoal{_verb(tokens)} --help`"))
         return BAD_INPUT
@@ -64,9 +62,11 @@ def run_command(tokens: list[str]) -> int:
         return INTERRUPTED
     except BrokenPipeError:  # the reader of our output left, as `| head` does
         drop_stdout()
+    except CannotPrintError as error:
+        drop_stdout()
+        tell(f"the result cannot be printed: {error}\n  fix: send it where there is room, or to /dev/null")
+        return CANNOT_PRINT
     except OSError as error:
-        if _stdout_fails():
-            return _cannot_print(error.strerror or str(error))
         told = error.filename if isinstance(error.filename, str) else "the system"
         tell(str(ShoalError(told, error.strerror or str(error), "name a file or folder that you may use")))
         return BAD_INPUT
@@ -77,20 +77,6 @@ def run_command(tokens: list[str]) -> int:
         tell("there is not enough memory\n  fix: ask for less: fewer agents, runs, frames or combinations")
         return BAD_INPUT
     return 0
-
-
-def _cannot_print(reason: str) -> int:
-    drop_stdout()
-    tell(f"the result cannot be printed: {reason}\n  fix: send it where there is room, or to /dev/null")
-    return CANNOT_PRINT
-
-
-def _stdout_fails() -> bool:
-    try:
-        sys.stdout.flush()
-    except OSError:
-        return True
-    return False
 
 
 def _verb(tokens: list[str]) -> str:

@@ -2,7 +2,9 @@
 
 import os
 import sys
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout, suppress
+from typing import Any, TextIO, cast
 
 from shoal.core.text import plain
 
@@ -26,6 +28,48 @@ def silence_stderr() -> None:
 def write(text: str) -> None:
     """Write a text to stdout, as it can be shown."""
     sys.stdout.write(plain(text, "\r\n\t"))
+
+
+class CannotPrintError(Exception):
+    """A result that stdout does not take; it says why."""
+
+
+class _Guarded:
+    """stdout, with an error of its own: a disk may be full elsewhere, too."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+    def write(self, text: str) -> int:
+        with _own_error():
+            return self._stream.write(text)
+
+    def flush(self) -> None:
+        with _own_error():
+            self._stream.flush()
+
+
+@contextmanager
+def guarded_stdout() -> Iterator[None]:
+    """Let what cannot be printed raise `CannotPrintError`; a reader that leaves is still a BrokenPipeError."""
+    if sys.stdout is None:
+        raise CannotPrintError("standard output is closed")
+    with redirect_stdout(cast(TextIO, _Guarded(sys.stdout))):
+        yield
+        sys.stdout.flush()
+
+
+@contextmanager
+def _own_error() -> Iterator[None]:
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise CannotPrintError(error.strerror or str(error)) from error
 
 
 def drop_stdout() -> None:

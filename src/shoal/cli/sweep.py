@@ -93,7 +93,7 @@ def sweep(
         raise ScenarioError("--runs", f"makes {total:,} runs in all", f"ask for {_MOST_RUNS:,} at most")
     if dry_run:
         for cell in cells:
-            write(", ".join(f"{name}={value}" for name, value in cell.point.items()) + "\n")
+            write(", ".join(f"{name}={value}" for name, value in cell.shown.items()) + "\n")
         seconds = probe(cells, design.runs, jobs or os.cpu_count() or 1)
         write(f"{len(cells)} combinations x {design.runs} runs = {total} runs, about {seconds:.0f} s\n")
         return

@@ -20,6 +20,12 @@ class Cell:
     point: Point
     scenario: Scenario
 
+    @property
+    def shown(self) -> Point:
+        """The point as results show it: a strategy's file by the name of the strategy."""
+        named = {"strategy": self.scenario.strategy.name} if isinstance(self.point.get("strategy"), str) else {}
+        return {**self.point, **named}
+
     def run_id(self, run: int) -> str:
         """24 hex digits over what shapes a run: the scenario, the seed, the replicate and the results version."""
         content = f"{self.scenario.hash}/{self.scenario.seed}/{run}/{RESULTS_VERSION}"
@@ -44,19 +50,11 @@ def make_cells(design: Design, changes: Point, *, independent: bool = False) -> 
         scenario = scenario_from(apply(base, point), where=f"{design.scenario} ({told})" if told else design.scenario)
         if independent:
             scenario = scenario.model_copy(update={"seed": _seed_of(scenario)})
-        cells.setdefault(f"{scenario.hash}/{scenario.seed}", Cell(_shown(point, scenario, files), scenario))
+        name, choice = scenario.strategy.name, point.get("strategy")
+        if isinstance(choice, str) and files.setdefault(name, choice) != choice:  # results could not tell them apart
+            raise ScenarioError(f"{files[name]} and {choice}", f"are both called {name!r}", "give one another name")
+        cells.setdefault(f"{scenario.hash}/{scenario.seed}", Cell(dict(point), scenario))
     return list(cells.values())
-
-
-def _shown(point: Point, scenario: Scenario, files: dict[str, Any]) -> Point:
-    """A point whose strategy, if it is a file, is called by its name; two files of one name cannot be told apart."""
-    choice = point.get("strategy")
-    if not isinstance(choice, str):
-        return dict(point)
-    name = scenario.strategy.name
-    if files.setdefault(name, choice) != choice:
-        raise ScenarioError(f"{files[name]} and {choice}", f"are both called {name!r}", "give one another name")
-    return {**point, "strategy": name}
 
 
 def base_table(design: Design, changes: Point) -> Point:

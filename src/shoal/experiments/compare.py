@@ -50,11 +50,12 @@ def run_comparison(
     """
     rows = sweep(design, out, changes=changes, executor=executor, report=report)
     seal(out, rows)
-    return by_condition(make_cells(design, changes), rows, design.runs)
+    names = {each.choice: each.name for each in contenders}
+    return by_condition(make_cells(design, changes), rows, design.runs, names)
 
 
 def by_condition(
-    cells: Sequence[Cell], rows: Sequence[Row], runs: int
+    cells: Sequence[Cell], rows: Sequence[Row], runs: int, names: Mapping[str, str]
 ) -> list[tuple[Point, dict[str, list[Row | None]]]]:
     """Sort rows into conditions (the point without the strategy) and strategies, each in the order of its runs.
 
@@ -65,7 +66,7 @@ def by_condition(
     for cell in cells:
         point = {name: value for name, value in cell.point.items() if name != "strategy"}
         _, strategies = found.setdefault(json.dumps(point), (point, {}))
-        strategies[cell.point["strategy"]] = [known.get(cell.run_id(run)) for run in range(runs)]
+        strategies[names[cell.point["strategy"]]] = [known.get(cell.run_id(run)) for run in range(runs)]
     return list(found.values())
 
 

@@ -109,7 +109,7 @@ class Store:
                     "scenario_hash": cell.scenario.hash,
                     "seed": str(cell.scenario.seed),
                     "run": run,
-                    "point": json.dumps(cell.point),
+                    "point": json.dumps(cell.shown),
                     **{name: row[name] for name in ("status", "error", *METRICS)},
                     **{name: json.dumps(row[name]) for name in LIST_COLUMNS},
                     "shoal_version": VERSION,

@@ -40,6 +40,11 @@ def shorten(text: str, letters: int) -> str:
     return text if len(text) <= letters else text[: letters - 1].rstrip() + "…"
 
 
+def legend_text(text: str) -> str:
+    """A text as a label that a legend shows: matplotlib hides those that begin with _."""
+    return f"{_THIN}{text}" if text.startswith("_") else text
+
+
 def estimate_text(value: Estimate) -> str:
     """Mean [low, high], to two digits of the interval's half-width."""
     if value.ci95 is None:
