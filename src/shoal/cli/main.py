@@ -15,7 +15,8 @@ INTERRUPTED = 130
 app = App(
     name="shoal",
     version=VERSION,
-    help="Simulate and compare swarms of buoys that search for and track moving targets at sea.",
+    help="Simulate and compare swarms of buoys that search for and track moving targets at sea. The presets are in an "
+    "arena of 20 m x 20 m; `shoal scenario oceans2020` prints one, every field explained.",
     help_format="plaintext",
     suppress_keyboard_interrupt=False,  # run_command says what an interrupt left behind
 )

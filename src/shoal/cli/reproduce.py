@@ -29,7 +29,7 @@ def reproduce(
     paper
         oceans2020 or aamas2020.
     quick
-        20,000 steps, 2 seeds and fewer k instead of 100,000 steps and 5 seeds: a minute instead of some ten.
+        20,000 steps, 2 seeds and fewer k instead of 100,000 steps and 5 seeds: minutes instead of half an hour.
     out
         Folder of the report and of all runs; default reproduction-PAPER, with --quick reproduction-PAPER-quick.
     jobs
