@@ -278,7 +278,8 @@ class TestNasty:
     @pytest.mark.parametrize(
         "text",
         ["a=" + "[" * 5000 + "]" * 5000, "[" + ".".join(["a"] * 5000) + "]", "steps=" + "9" * 5000,
-         "#" + "x" * 2_000_000, "fleets=[" + "{}," * 100_000 + "]", "[[fleets]]\n" * 20_000, "\n".join(f"x{n} = 1" for n in range(20_000))],
+         "#" + "x" * 2_000_000, "fleets=[" + "{}," * 100_000 + "]", "[[fleets]]\n" * 20_000,
+         "\n".join(f"x{n} = 1" for n in range(20_000))],
         ids=["deep", "deep header", "long number", "long file", "many fleets", "many tables", "many fields"],
     )  # fmt: skip
     def test_too_much_of_anything_is_one_short_error(self, text, tmp_path):

@@ -52,11 +52,18 @@ def check_asked(source: str | dict[str, Any], asked: Sequence[tuple[str, str]]) 
 
 
 def check_positive(**options: float | str | None) -> None:
-    """Refuse options of 0 or less, and more than can be; `max_runs` is --max-runs."""
+    """Refuse options of 0 or less, and of more than can be; `max_runs` is --max-runs."""
+    check_most(**options)
     for name, number in options.items():
         if number is None or isinstance(number, str):
             continue
         if number <= 0:
             raise ScenarioError(f"--{name.replace('_', '-')}", f"is {number}", "give a number above 0")
-        if number > (most := _MOST.get(name, math.inf)):
+
+
+def check_most(**options: float | str | None) -> None:
+    """Refuse more runs or threads than can be."""
+    for name, number in options.items():
+        most = _MOST.get(name, math.inf)
+        if isinstance(number, (int, float)) and number > most:
             raise ScenarioError(f"--{name.replace('_', '-')}", f"is {number:,}", f"give {most:,} at most")

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from shoal.cli.options import check_positive, edited_table
+from shoal.cli.options import check_most, edited_table
 from shoal.cli.output import write
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler, tell_of_compiling
@@ -86,7 +86,7 @@ def run(
         "steps": steps,
         "seed": seed,
     }
-    check_positive(runs=runs, jobs=jobs, every=every)
+    check_most(runs=runs, jobs=jobs)
     if figure:
         from shoal.viz.files import figure_format
 

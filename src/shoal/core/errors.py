@@ -46,7 +46,7 @@ class MissingExtraError(ShoalError):
     @classmethod
     def of(cls, package: str, extra: str, why: str) -> "MissingExtraError":
         """Return the one sentence: what to install and why."""
-        fix = f"in your clone of Shoal: pip install '.[{extra}]'"
+        fix = f"pip install '.[{extra}]', in your clone of Shoal"
         return cls(package, f"is not installed, and {why} needs it", fix)
 
 
