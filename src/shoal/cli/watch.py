@@ -77,11 +77,11 @@ def watch(
         Save a record of the steps watched to this new folder, at the end of the run or at Ctrl-C. Nothing can be
         changed meanwhile: a record is of one scenario.
     """
-    from shoal.view.libraries import require_libraries
-
-    require_libraries()  # missing ones are named now, not after compiling
     load_compiler()
     from shoal.core.errors import ScenarioError
+    from shoal.view.server import require_libraries
+
+    require_libraries()  # missing ones are named now, not after compiling
 
     changes: dict[str, Any] = {
         "agents": agents,

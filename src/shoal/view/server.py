@@ -3,10 +3,11 @@
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
+from shoal.core.errors import MissingExtraError
 from shoal.view.address import LOCAL, Guard, listen, names_of, reachable
-from shoal.view.libraries import require_libraries
 from shoal.view.page import LIVE_POLICY, assets
 from shoal.view.requests import LONGEST
 from shoal.view.session import Session
@@ -108,3 +109,15 @@ def _routes(files: dict[str, tuple[bytes, str]], policy: str) -> list[Any]:
         return Route(path, answer, methods=["GET"])
 
     return [route(path, *file) for path, file in files.items()]
+
+
+def require_libraries() -> None:
+    """Refuse to begin without them.
+
+    Raises
+    ------
+    MissingExtraError : one is not installed
+    """
+    for name in ("starlette", "uvicorn", "websockets"):
+        if find_spec(name) is None:
+            raise MissingExtraError.of(name, "viewer", "watching a run in a browser")
