@@ -5,9 +5,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from shoal.core.errors import ScenarioError
+from shoal.scenario.change import follow
 from shoal.scenario.edit import apply, parse_assignment, parse_value, refuse_contradictions
 from shoal.scenario.load import read_table
-from shoal.scenario.on_track import put_on_track
 
 _MOST = {"runs": 1_000_000, "max_runs": 1_000_000, "jobs": 1024}
 
@@ -21,6 +21,7 @@ def edited_table(
     table = read_table(source)
     options = [(f"--{name}", name) for name, value in changes.items() if value is not None]
     check_asked(table, [*options, *as_options("--set", assignments)])
+    assigned = dict(parse_assignment(each) for each in assignments)
     wanted = {name: value for name, value in changes.items() if value is not None}
     for name in ("target-speed", "neighbors"):
         if isinstance(text := wanted.get(name), str):
@@ -28,10 +29,8 @@ def edited_table(
     if track:
         # what the track decides, an option overrides
         late: dict[str, Any] = {name: wanted.pop(name) for name in ("steps", "target-speed") if name in wanted}
-        table = put_on_track(apply(table, wanted), track, track_id)
-        wanted = late
-    table = apply(table, wanted)
-    return apply(table, dict(parse_assignment(each) for each in assignments))
+        return follow(table, wanted, late | assigned, track, track_id)
+    return apply(apply(table, wanted), assigned)
 
 
 def given_changes(assignments: Sequence[str] | None, **options: Any) -> dict[str, Any]:

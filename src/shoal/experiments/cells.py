@@ -7,8 +7,9 @@ from typing import Any
 
 from shoal.core.errors import ScenarioError
 from shoal.experiments.design import Design, Point
+from shoal.scenario.change import change
 from shoal.scenario.edit import apply
-from shoal.scenario.load import read_table, scenario_from
+from shoal.scenario.load import name_of_source, scenario_from, table_of
 from shoal.scenario.schema import Scenario
 from shoal.version import RESULTS_VERSION
 
@@ -42,24 +43,25 @@ def make_cells(design: Design, changes: Point, *, independent: bool = False) -> 
     ------
     ScenarioError : a point gives no scenario that can run (all points are checked before anything runs)
     """
-    base = apply(read_table(design.scenario), changes)
+    base = change(table_of(design.scenario), changes)
     cells: dict[str, Cell] = {}
     files: dict[str, Any] = {}
+    name = name_of_source(design.scenario)
     for point in design.points:
         told = ", ".join(f"{name}={value}" for name, value in point.items())
-        scenario = scenario_from(apply(base, point), where=f"{design.scenario} ({told})" if told else design.scenario)
+        scenario = scenario_from(apply(base, point), where=f"{name} ({told})" if told else name)
         if independent:
             scenario = scenario.model_copy(update={"seed": _seed_of(scenario)})
-        name, choice = scenario.strategy.name, point.get("strategy")
-        if isinstance(choice, str) and files.setdefault(name, choice) != choice:  # results could not tell them apart
-            raise ScenarioError(f"{files[name]} and {choice}", f"are both called {name!r}", "give one another name")
+        called, choice = scenario.strategy.name, point.get("strategy")
+        if isinstance(choice, str) and files.setdefault(called, choice) != choice:  # results could not tell them apart
+            raise ScenarioError(f"{files[called]} and {choice}", f"are both called {called!r}", "give one another name")
         cells.setdefault(f"{scenario.hash}/{scenario.seed}", Cell(dict(point), scenario))
     return list(cells.values())
 
 
 def base_table(design: Design, changes: Point) -> Point:
     """The scenario that a design starts from, in full."""
-    return scenario_from(apply(read_table(design.scenario), changes)).model_dump(mode="json", exclude={"description"})
+    return scenario_from(change(table_of(design.scenario), changes)).model_dump(mode="json", exclude={"description"})
 
 
 def _seed_of(scenario: Scenario) -> int:

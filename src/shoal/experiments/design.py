@@ -10,7 +10,7 @@ from typing import Any
 from shoal.core.errors import MissingExtraError, ScenarioError
 from shoal.core.text import cut, quoted
 from shoal.scenario.edit import parse_value
-from shoal.scenario.load import presets, raw_table
+from shoal.scenario.load import Source, presets, raw_table
 
 MOST_POINTS = 1_000_000  # combinations of a design
 
@@ -19,9 +19,9 @@ Point = dict[str, Any]  # {field: value}: shorthands (neighbors, fast, ...) and 
 
 @dataclass(frozen=True)
 class Design:
-    """A base scenario (preset or file), the points at which it is changed, and the replicates of each."""
+    """A base scenario (what shoal.load takes), the points at which it is changed, and the replicates of each."""
 
-    scenario: str
+    scenario: Source
     points: tuple[Point, ...]
     runs: int
 

@@ -18,6 +18,9 @@ from shoal.scenario.strategy_choice import StrategyChoice
 
 Table = dict[str, Any]
 
+ORIGIN = "area.origin"
+READING = ("file", "id", "max_gap", "max_speed", "day_first")  # fields of a target: which fixes of a file are used
+
 
 def apply(table: Table, changes: Mapping[str, Any]) -> Table:
     """Return a changed copy of a table; names are shorthands (see SHORTHANDS) or dotted paths like network.neighbors.
@@ -44,6 +47,7 @@ def apply(table: Table, changes: Mapping[str, Any]) -> Table:
     emptied = {name.split(".")[0] for name, value in changes.items() if name.endswith(".count") and value == 0}
     for name in emptied & {"fleets", "losses", "joins"}:  # none of them is no entry
         changed[name] = [each for each in changed[name] if not (isinstance(each, dict) and each.get("count") == 0)]
+    _drop_digests(changed, changes)
     return changed
 
 
@@ -117,10 +121,12 @@ def _fields_of(table: Table, name: str) -> list[str]:
 
 
 def parse_value(text: str) -> Any:
-    """Read a value as TOML would (number, true, list, "text"); anything else is text, such as 5 kn or sequential.
+    """Read a value as TOML would (number, true, list, "text"), or null; anything else is text, such as 5 kn.
 
     Numbers are decimal ones: 1_000 and 0x10 are text, too.
     """
+    if text == "null":
+        return None
     try:
         value = tomllib.loads(f"value = {text}")["value"]
     except (ValueError, RecursionError):  # no TOML, or nothing that Python reads
@@ -139,6 +145,16 @@ def parse_assignment(text: str) -> tuple[str, Any]:
     if not equals or not re.fullmatch(r"[\w.\-]+", path.strip()):
         raise ScenarioError(f"--set {cut(text)}", "is no assignment", "write path=value, such as network.neighbors=12")
     return path.strip(), parse_value(value.strip())
+
+
+def _drop_digests(table: Table, changes: Mapping[str, Any]) -> None:
+    """A recorded track that is read in another way is another one: the digest of the old one is void."""
+    targets = table.get("targets")
+    for n, target in enumerate(targets if isinstance(targets, list) else ()):
+        if isinstance(target, dict) and "digest" in target and f"targets.{n}.digest" not in changes:
+            reading = (ORIGIN, *(f"targets.{n}.{name}" for name in READING))
+            if any(name in changes for name in reading):
+                del target["digest"]
 
 
 def _set_neighbors(table: Table, value: Any) -> None:

@@ -17,7 +17,7 @@ from shoal.core.text import cut, quoted
 from shoal.scenario.frozen import MOST_ENTRIES, plain
 from shoal.scenario.plugins import find_strategy, load_strategies
 from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Join, Loss, Motion, Network, Scenario
-from shoal.scenario.strategy_choice import StrategyChoice, StrategyParamsError, params_model
+from shoal.scenario.strategy_choice import StrategyParamsError, params_model
 from shoal.scenario.targets import TARGETS
 
 LARGEST = 10**6  # bytes of a scenario file
@@ -49,15 +49,16 @@ def load(source: Source, /, **changes: Any) -> Scenario:
     TrackError : the recorded track of `target_track` cannot be used
     StrategyError : the strategy cannot be loaded, or was defined anew since the scenario was made
     """
-    table, where = table_of(source), name_of_source(source)
-    if isinstance(source, Scenario) and "strategy" not in changes:
-        _refuse_outdated(source)
-    if not changes:
-        text = _text_of(source) if isinstance(source, (str, PathLike)) else ""
-        return scenario_from(table, where=where, text=text)
-    from shoal.scenario.change import change  # which needs scenario_from
+    table, where, text = table_of(source), name_of_source(source), ""
+    if changes:
+        from shoal.scenario.change import change  # which needs scenario_from
 
-    return scenario_from(change(table, changes), where=where)
+        table = change(table, changes)
+    elif isinstance(source, (str, PathLike)):
+        text = _text_of(source)
+    scenario = scenario_from(table, where=where, text=text)
+    _refuse_outdated(scenario)
+    return scenario
 
 
 def table_of(source: Source) -> dict[str, Any]:
@@ -86,7 +87,7 @@ def name_of_source(source: Source) -> str:
 def _refuse_outdated(scenario: Scenario) -> None:
     choices = (scenario.strategy, *(fleet.strategy for fleet in scenario.fleets))
     for choice in choices:
-        if isinstance(choice, StrategyChoice) and choice.outdated:
+        if choice and choice.outdated:
             raise StrategyError(
                 f"strategy {choice.name!r}",
                 "was defined anew since this scenario was made",
