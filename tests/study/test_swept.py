@@ -100,6 +100,8 @@ class TestLooks:
         ({"neighbors": []}, {}, "has no values"),
         ({"neighbors": [object()]}, {}, "give a number"),
         (["neighbors"], {}, 'write vary={"neighbors"'),
+        ({5: [1]}, {}, 'write vary={"neighbors"'),
+        ({"neighbors": [1]}, {"until": 3}, "did you mean 'until_ci'"),
         ({"neighbors": [1]}, {"stepss": 3}, "did you mean 'steps'"),
         ({"neighbors": [1]}, {"runs": 0}, "ask for 1 or more"),
         ({"neighbors": [1]}, {"jobs": 0}, "ask for 1 or more"),

@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from shoal.core.errors import ScenarioError
-from shoal.scenario.change import follow
-from shoal.scenario.edit import apply, parse_assignment, parse_value, refuse_contradictions
+from shoal.scenario.change import change
+from shoal.scenario.edit import parse_assignment, parse_value, refuse_contradictions
 from shoal.scenario.load import read_table
 
 _MOST = {"runs": 1_000_000, "max_runs": 1_000_000, "jobs": 1024}
@@ -15,22 +15,19 @@ _MOST = {"runs": 1_000_000, "max_runs": 1_000_000, "jobs": 1024}
 def edited_table(
     source: str, changes: Mapping[str, Any], assignments: Sequence[str], track: str | None, track_id: str | None
 ) -> dict[str, Any]:
-    """Return the table of a preset or file with options applied in this order: changes, track, assignments."""
+    """Return the table of a preset or file changed by options, a track and assignments, which win over options."""
     if track_id and not track:
         raise ScenarioError("--track-id", "needs --target-track", "name the file that holds the track")
     table = read_table(source)
     options = [(f"--{name}", name) for name, value in changes.items() if value is not None]
     check_asked(table, [*options, *as_options("--set", assignments)])
-    assigned = dict(parse_assignment(each) for each in assignments)
     wanted = {name: value for name, value in changes.items() if value is not None}
     for name in ("target-speed", "neighbors"):
         if isinstance(text := wanted.get(name), str):
             wanted[name] = parse_value(text)
-    if track:
-        # what the track decides, an option overrides
-        late: dict[str, Any] = {name: wanted.pop(name) for name in ("steps", "target-speed") if name in wanted}
-        return follow(table, wanted, late | assigned, track, track_id)
-    return apply(apply(table, wanted), assigned)
+    assigned = dict(parse_assignment(each) for each in assignments)
+    followed = {"target_track": track, "track_id": track_id} if track else {}
+    return change(table, wanted | followed | assigned)
 
 
 def given_changes(assignments: Sequence[str] | None, **options: Any) -> dict[str, Any]:
