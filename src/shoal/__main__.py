@@ -7,12 +7,14 @@ from typing import Any
 
 
 def main() -> None:
-    """Run the command line and exit: 0 fine, 1 results cannot be printed, 2 bad input, 130 interrupted."""
+    """Run the command line and exit; docs/reference/cli.md has the codes."""
     heeded = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # not under nohup
     if heeded:
         signal.signal(signal.SIGINT, _leave)  # while what is imported below takes half a second
     from shoal.cli.main import run_command
+    from shoal.cli.signals import heed_signals
 
+    heed_signals()
     if heeded:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     code = run_command(sys.argv[1:])

@@ -316,7 +316,7 @@ class TestProcess:
             [sys.executable, "-m", "shoal", "run", "oceans2020", "--steps", "50000000", "--out", str(tmp_path / "r")],
             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True,
         )  # fmt: skip
-        while not (tmp_path / "r.partial").exists():
+        while not (tmp_path / "r").exists():
             time.sleep(0.1)
         time.sleep(2.0)
         asked = time.monotonic()

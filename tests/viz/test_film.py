@@ -188,10 +188,10 @@ class TestErrors:
             raise KeyboardInterrupt
 
         file = tmp_path / f"film.{kind}"
-        file.write_text("old")
+        file.write_text("old, of shoal")
         with pytest.raises(KeyboardInterrupt):
             write_film(make_record(), file, steps=4, look=SMALL, progress=interrupt)
-        assert [(each.name, each.read_text()) for each in tmp_path.iterdir()] == [(file.name, "old")]
+        assert [(each.name, each.read_text()) for each in tmp_path.iterdir()] == [(file.name, "old, of shoal")]
 
     def test_an_ffmpeg_that_fails_is_one_error_with_its_words(self, make_record, tmp_path, monkeypatch):
         broken = tmp_path / "ffmpeg"

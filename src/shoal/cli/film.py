@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
+from shoal.cli.older import opened
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler, tell_of_compiling
@@ -121,12 +122,10 @@ def film(
 
 
 def _opened(folder: str, **changes: Any) -> "Record":
-    from shoal.record.files import open_record
-
     changed = [f"--{'set' if name == 'assignments' else name}" for name, value in changes.items() if value is not None]
     if changed:
         raise ScenarioError(changed[0], "changes a scenario, and a record is done", "film the scenario instead")
-    return open_record(folder)
+    return opened(folder)
 
 
 def _filmed(

@@ -5,12 +5,12 @@ import sys
 from cyclopts import App, CycloptsError
 
 from shoal.cli.output import CANNOT_PRINT, CannotPrintError, drop_stdout, guarded_stdout, silence_stderr, tell
+from shoal.cli.signals import exit_code, heed_signals
 from shoal.core.errors import ShoalError
 from shoal.core.text import readable
 from shoal.version import VERSION
 
 BAD_INPUT = 2
-INTERRUPTED = 130
 
 app = App(
     name="shoal",
@@ -40,6 +40,7 @@ app.command("shoal.cli.scenario:schema", name="schema", help="Print the JSON Sch
 
 def main() -> None:
     """Run the command line and exit; see shoal.__main__, which does it with an eye on Ctrl-C."""
+    heed_signals()
     sys.exit(run_command(sys.argv[1:]))
 
 
@@ -58,9 +59,9 @@ def run_command(tokens: list[str]) -> int:
     except ShoalError as error:
         tell(str(error))
         return BAD_INPUT
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as error:
         tell("interrupted; nothing was left half-written")
-        return INTERRUPTED
+        return exit_code(error)
     except BrokenPipeError:  # the reader of our output left, as `| head` does
         drop_stdout()
     except CannotPrintError as error:

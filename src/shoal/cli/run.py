@@ -8,6 +8,7 @@ from cyclopts import Parameter
 
 from shoal.cli.options import check_most, edited_table
 from shoal.cli.output import write
+from shoal.cli.places import check_places
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler, tell_of_compiling
 from shoal.cli.whole import MaybeSteps, MaybeWhole, Whole
@@ -87,10 +88,7 @@ def run(
         "seed": seed,
     }
     check_most(runs=runs, jobs=jobs)
-    if figure:
-        from shoal.viz.files import figure_format
-
-        figure_format(figure)  # refused before the run, not after
+    check_places(out, figure)
     table = edited_table(scenario, changes, assignments or [], target_track, track_id)
     chosen = scenario_from(table, where=scenario)
     asked = read_table(scenario).get("network", {}).get("neighbors")
@@ -101,11 +99,6 @@ def run(
         record = simulate(chosen, runs=runs, jobs=jobs, every=every, out=out, progress=progress)
     for each in record.provenance["notes"]:
         note(each)
-    if figure:
-        from shoal.plot import save, summary
-
-        save(summary(record), figure)
-        note(f"figure: {figure}")
     if out:
         note(f"record: {out} (shoal show {out})")
     if json_:
@@ -114,3 +107,8 @@ def run(
         from shoal.cli.table import print_record
 
         print_record(record)
+    if figure:
+        from shoal.plot import save, summary
+
+        save(summary(record), figure)
+        note(f"figure: {figure}")

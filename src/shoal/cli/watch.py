@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
+from shoal.cli.older import opened
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler
@@ -164,11 +165,10 @@ def _record(session: "Session", out: Path) -> None:
 def _play_record(folder: str, host: str, port: int, browser: bool) -> None:
     from threading import Event
 
-    from shoal.record.files import open_record
     from shoal.view.replay import replay_page
     from shoal.view.server import page_app, serving
 
-    page = replay_page(open_record(folder))
+    page = replay_page(opened(folder))
     with suppress(KeyboardInterrupt), serving(page_app(page), host, port) as address:
         _announce(address, host, browser)
         Event().wait()

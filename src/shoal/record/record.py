@@ -1,6 +1,6 @@
 """Record: what runs leave behind, with units and provenance."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -53,7 +53,7 @@ class Record:
     facts: Facts
     tallies: tuple[Tally, ...]
     provenance: dict[str, Any]
-    trajectories: dict[int, Trajectory] = field(default_factory=dict)
+    trajectories: Mapping[int, Trajectory] = field(default_factory=dict)
 
     def estimate(self, metric: str) -> Estimate:
         """Mean and 95 % confidence interval of a metric, see shoal.list_metrics(): over runs, or batches of one run.

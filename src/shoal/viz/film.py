@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shoal.core.errors import ShoalError
+from shoal.core.files import check_file
 from shoal.record.record import Record
 from shoal.viz.encoder import encoder, find_ffmpeg
 from shoal.viz.files import save_figure
@@ -106,8 +107,7 @@ def check_film(file: Path, look: FilmLook) -> str:
     kind = file.suffix.lower().removeprefix(".")
     if kind not in FORMATS:
         raise ShoalError(str(file), "does not end in .mp4, .gif or .png", "name a film .mp4 or .gif, a still .png")
-    if not file.parent.is_dir():
-        raise ShoalError(str(file), f"cannot be written: there is no folder {file.parent}", "make the folder first")
+    check_file(file, ours=True)
     if look.fps is not None and not SLOWEST <= look.fps <= FASTEST:
         raise ShoalError("fps", f"is {look.fps:g}", f"choose {SLOWEST:g} to {FASTEST:g} frames per second")
     for side in (look.width, look.height):

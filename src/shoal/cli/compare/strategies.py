@@ -52,15 +52,15 @@ def compare_strategies(
             report=report,
         )
     tell_failures(row for _, strategies in found.found for rows in strategies.values() for row in rows)
-    if figure:
-        from shoal.viz.files import save_figure
-
-        save_figure(found.plot(), figure)
-        note(f"figure: {figure}")
     about = {"scenario": scenario, "runs": found.runs, "steps": found.steps, "seed": found.seed}
     if as_json:
         write(json.dumps(comparison_data(found.comparison, metric, found.direction, about)) + "\n")
     else:
         print_comparison(found.comparison, metric, found.direction, about)
+    if figure:
+        from shoal.viz.files import save_figure
+
+        save_figure(found.plot(), figure)
+        note(f"figure: {figure}")
     if out:
         note(f"all runs: {out} (shoal results {out})")
