@@ -8,6 +8,7 @@ import pytest
 from commands import shoal
 from shoal.cli.main import BAD_INPUT, run_command
 from shoal.cli.table import print_record
+from shoal.record.content import sum_of_content
 from shoal.record.files import open_record
 from shoal.scenario.load import preset_text
 
@@ -55,7 +56,9 @@ def renamed(record, tmp_path):
         text = about.read_text()
         for old, new in (("oceans2020", scenario), ("BoB-1", fleet)):
             text = text.replace(f'"{old}"', json.dumps(new))
-        about.write_text(text)
+        content = json.loads(text)
+        content["checksum"] = sum_of_content(content)  # whoever sends a record can do so, too
+        about.write_text(json.dumps(content))
         return about.parent
 
     return make
