@@ -194,7 +194,7 @@ class TestStore:
             read_rows(tmp_path)
 
     def test_results_load_as_a_data_frame(self, tmp_path):
-        pytest.importorskip("pandas", reason="load_results needs pandas: pip install 'shoal[sweep]'")
+        pytest.importorskip("pandas", reason="load_results needs pandas: pip install '.[sweep]'")
         sweep(DESIGN, tmp_path, changes=SHORT)
         frame = load_results(tmp_path)
         assert len(frame) == 8
@@ -275,7 +275,7 @@ class TestKilled:
 class TestDask:
     @pytest.mark.slow
     def test_a_worker_killed_in_the_middle_changes_nothing(self, tmp_path):
-        distributed = pytest.importorskip("distributed", reason="Dask is absent: pip install 'shoal[cluster]'")
+        distributed = pytest.importorskip("distributed", reason="Dask is absent: pip install '.[cluster]'")
         from shoal.experiments.executors import on_dask
 
         design = Design("oceans2020", tuple(grid({"neighbors": list(range(5, 25))})), 2)

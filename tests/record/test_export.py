@@ -359,7 +359,7 @@ class TestMissingExtra:
 
     def test_labelled_arrays_need_xarray(self, record, monkeypatch):
         monkeypatch.setitem(sys.modules, "xarray", None)
-        with pytest.raises(MissingExtraError, match=r"(?s)xarray.*shoal\[xarray\]"):
+        with pytest.raises(MissingExtraError, match=r"(?s)xarray.*pip install '\.\[xarray\]'"):
             record.to_xarray()
 
     @pytest.mark.parametrize(("kind", "library"), [("netcdf", "netCDF4"), ("zarr", "zarr"), ("zarr", "xarray")])

@@ -68,5 +68,5 @@ class TestErrors:
     def test_without_matplotlib_the_extra_is_named(self, monkeypatch):
         monkeypatch.setitem(sys.modules, "matplotlib", None)
         monkeypatch.setitem(sys.modules, "matplotlib.style", None)
-        with pytest.raises(MissingExtraError, match=r"pip install 'shoal\[plots\]'"), style():
+        with pytest.raises(MissingExtraError, match=r"pip install '\.\[plots\]'"), style():
             pass

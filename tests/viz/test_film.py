@@ -204,7 +204,7 @@ class TestErrors:
 
     def test_a_missing_extra_is_one_sentence(self, make_record, tmp_path, monkeypatch):
         monkeypatch.setitem(__import__("sys").modules, "imageio_ffmpeg", None)
-        with pytest.raises(MissingExtraError, match=r"pip install 'shoal\[video\]'"):
+        with pytest.raises(MissingExtraError, match=r"pip install '\.\[video\]'"):
             write_film(make_record(), tmp_path / "film.mp4", look=SMALL)
 
     def test_a_still_needs_no_ffmpeg(self, make_record, tmp_path, monkeypatch):

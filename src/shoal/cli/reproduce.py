@@ -1,11 +1,11 @@
 """shoal reproduce: a paper's figures and claims from our own runs."""
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from shoal.cli.output import write
 from shoal.cli.progress import note
 from shoal.cli.sweep_progress import sweep_progress
 from shoal.cli.whole import MaybeWhole
@@ -32,7 +32,7 @@ def reproduce(
     paper
         oceans2020 or aamas2020.
     quick
-        20,000 steps, 2 seeds and fewer k instead of 100,000 steps and 5 seeds: minutes instead of half an hour or so.
+        20,000 steps, 2 seeds and fewer k instead of 100,000 steps and 5 seeds: minutes instead of half an hour.
     readings
         Of oceans2020: how much of the paper each of 30 readings of it meets, and which meets most.
     out
@@ -51,26 +51,25 @@ def reproduce(
     if failed:
         note(f"{len(failed)} runs failed, the first: {failed[0]['error']}\n  fix: mend it, then the same command again")
     (_print_readings if readings else _print_claims)(found)
-    sys.stdout.write(f"report: {folder / 'report.html'}\n")
+    write(f"report: {folder / 'report.html'}\n")
 
 
 def _print_claims(found: "Reproduction") -> None:
-    from rich.console import Console
     from rich.table import Table
-    from rich.text import Text
 
-    console = Console(file=sys.stdout, highlight=False)
+    from shoal.cli.console import results_console, small_print
+
+    console = results_console()
     table = Table(box=None, padding=(0, 2, 0, 0))
     names = ["as printed", "refit"] if found.refit_claims else ["verdict"]
     for title in ("", *names, "claim, and what was measured"):
         table.add_column(title)
     others = {claim.id: claim for claim in found.refit_claims}
     for claim in found.claims:
-        text = Text(claim.statement).append(f"\n{claim.measured}", style="dim")
-        other = others.get(claim.id)
-        if other:
-            text.append(f"\nrefit: {other.measured}", style="dim")
-        table.add_row(claim.id, claim.verdict, *([other.verdict] if other else []), text)
+        told = [claim, *([others[claim.id]] if claim.id in others else [])]
+        verdicts = [small_print(each.verdict, each.cases.replace(", ", "\n")) for each in told]
+        measured = "\nrefit: ".join(each.measured for each in told)
+        table.add_row(claim.id, *verdicts, small_print(claim.statement, measured))
     console.print(table)
     differ = [claim.id for claim in found.claims if claim.id in others and claim.verdict != others[claim.id].verdict]
     if others:
@@ -79,10 +78,11 @@ def _print_claims(found: "Reproduction") -> None:
 
 
 def _print_readings(found: "Reproduction") -> None:
-    from rich.console import Console
     from rich.table import Table
 
-    console = Console(file=sys.stdout, highlight=False)
+    from shoal.cli.console import results_console
+
+    console = results_console()
     table = Table(box=None, padding=(0, 2, 0, 0))
     scores = found.tables["readings_scores"]
     for title in ("reading", "stage", "hold", "do not", "score", ""):

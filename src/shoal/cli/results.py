@@ -1,13 +1,13 @@
 """shoal results, shoal plot: what a sweep found."""
 
 import json
-import sys
 from pathlib import Path
 from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 from shoal.cli.older import tell_of_version
+from shoal.cli.output import write
 from shoal.cli.progress import note
 
 
@@ -36,9 +36,13 @@ def results(
     parquet
         Write every run to this parquet file instead.
     """
+    from shoal.core.errors import ScenarioError
     from shoal.core.files import check_file
     from shoal.experiments.results import aggregate, read_rows, to_csv, write_parquet
 
+    kinds = [name for name, given in (("--csv", csv), ("--json", json_), ("--parquet", parquet)) if given]
+    if len(kinds) > 1:
+        raise ScenarioError(" and ".join(kinds), "are different outputs", "choose one of them")
     if parquet:
         check_file(parquet, ours=True)
     fields, rows = read_rows(folder)
@@ -47,21 +51,27 @@ def results(
         write_parquet(rows, parquet)
         note(f"{len(rows)} runs: {parquet}")
     elif csv and by is None:
-        sys.stdout.write(to_csv(rows))
+        write(to_csv(rows))
     elif json_ and by is None:
-        sys.stdout.write(json.dumps(rows) + "\n")
+        write(json.dumps(rows) + "\n")
     else:
         groups = aggregate(rows, by.split(",") if by else fields)
         if csv:
-            sys.stdout.write(to_csv(groups))
+            write(to_csv(groups))
         elif json_:
-            sys.stdout.write(json.dumps(groups) + "\n")
+            write(json.dumps(groups) + "\n")
         else:
             _print_groups(groups, by.split(",") if by else fields)
 
 
 def plot(
-    folder: Path, /, *, x: str | None = None, y: str = "time_on_target", hue: str | None = None, out: Path | None = None
+    folder: Path,
+    /,
+    *,
+    x: str | None = None,
+    y: str = "time_on_target",
+    hue: str | None = None,
+    figure: Annotated[Path | None, Parameter(name=["--figure", "--out"])] = None,
 ) -> None:
     """Draw one metric of a sweep against a field, with bands of the 95 % interval.
 
@@ -75,7 +85,7 @@ def plot(
         Metric on the vertical axis.
     hue
         Field that makes one curve per value; default the next field that varies.
-    out
+    figure
         Picture to draw (.png, .svg or .pdf); default plot.png in the folder.
     """
     from shoal.experiments.results import read_rows
@@ -83,7 +93,7 @@ def plot(
     from shoal.viz.files import check_figure
 
     _tell_of(read_rows(folder)[1])
-    target = out or folder / "plot.png"
+    target = figure or folder / "plot.png"
     check_figure(target)
     save(curves(folder, x=x, y=y, hue=hue), target)
     note(f"figure: {target}")

@@ -1,13 +1,13 @@
 """shoal show: the table and the figure of a saved record."""
 
 import json
-import sys
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
 from shoal.cli.older import opened
+from shoal.cli.output import write
 from shoal.cli.progress import note
 
 
@@ -37,7 +37,7 @@ def show(
         check_figure(figure)
     known = opened(record)
     if json_:
-        sys.stdout.write(json.dumps(known.summary()) + "\n")
+        write(json.dumps(known.summary()) + "\n")
     else:
         print_record(known)
     if figure:

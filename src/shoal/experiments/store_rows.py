@@ -145,7 +145,7 @@ def make_rows(entries: Iterable[tuple[Cell, int, Row]]) -> Iterator[tuple[dict[s
             "scenario_hash": cell.scenario.hash,
             "seed": seed if seed < 2**63 else str(seed),  # SQLite's whole numbers end there
             "run": run,
-            "point": json.dumps(cell.point),
+            "point": json.dumps(cell.shown),
             "status": row["status"],
             "error": row["error"].encode("utf-8", "backslashreplace").decode(),
             **{name: _number(row[name]) for name in METRICS},

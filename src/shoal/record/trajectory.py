@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.core.errors import UnknownNameError, no_attribute
-from shoal.core.sheet import Sheet, shown
+from shoal.core.sheet import Sheet
+from shoal.core.text import plain
 from shoal.engine.stage import Frames
 
 _PLAIN = ("step", "x", "y", "vx", "vy", "on_target", "alive", "target_x", "target_y", "target_present")
@@ -56,7 +57,7 @@ class Trajectory:
     def _head(self) -> str:
         (frames, agents), targets = self.x.shape, self.target_x.shape[1]
         steps = f" of steps {self.step[0]:,} to {self.step[-1]:,}" if frames else ""
-        memory = f"; memory: {shown(', '.join(self.memory))}" if self.memory else ""
+        memory = f"; memory: {plain(', '.join(self.memory))}" if self.memory else ""
         return f"of {frames:,} frames{steps}: {agents} agents, {targets} target{'s' * (targets != 1)}{memory}"
 
     if not TYPE_CHECKING:  # type checkers shall go on to know what there is

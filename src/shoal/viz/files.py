@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from shoal.core.errors import ShoalError
 from shoal.core.files import check_file, whole_file
 from shoal.version import VERSION
-from shoal.viz.style import RC, style
+from shoal.viz.style import RC, require_matplotlib, style
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,12 +38,14 @@ def save_figure(figure: "Figure", path: str | Path, dpi: float | None = None) ->
 
 
 def figure_format(path: str | Path) -> str:
-    """Return png, svg or pdf, as the suffix of a file says.
+    """Return png, svg or pdf, as the suffix of a file says; refuse a figure that cannot be drawn.
 
     Raises
     ------
     ShoalError : another suffix
+    MissingExtraError : matplotlib is not installed
     """
+    require_matplotlib()
     kind = Path(path).suffix.lower().removeprefix(".")
     if kind not in FORMATS:
         problem = (

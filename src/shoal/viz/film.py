@@ -15,7 +15,7 @@ from shoal.viz.film_page import FilmPage, film_size
 from shoal.viz.scene import Parts
 from shoal.viz.snapshot import frames_of
 from shoal.viz.stretch import stretch_of
-from shoal.viz.style import style
+from shoal.viz.style import require_matplotlib, style
 
 FORMATS = ("mp4", "gif", "png")
 SMALLEST, LARGEST = 200, 4096  # [pixel] a side
@@ -113,6 +113,7 @@ def check_film(file: Path, look: FilmLook) -> str:
     for side in (look.width, look.height):
         if side is not None and not SMALLEST <= side <= LARGEST:
             raise ShoalError("size", f"has a side of {side} pixels", f"choose {SMALLEST} to {LARGEST}")
+    require_matplotlib()
     if kind != "png":
         find_ffmpeg()
     return kind

@@ -1,12 +1,12 @@
 """shoal compare --suite: a leaderboard over fixed conditions."""
 
 import json
-import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
 
 from shoal.cli.compare.runs import tell_failures
+from shoal.cli.output import write
 from shoal.cli.progress import note
 from shoal.cli.sweep_progress import sweep_progress
 
@@ -58,7 +58,7 @@ def compare_suite(
         write_page(board, markdown, named)
         note(f"page: {markdown}")
     if as_json:
-        sys.stdout.write(json.dumps(leaderboard_data(board)) + "\n")
+        write(json.dumps(leaderboard_data(board)) + "\n")
     else:
         print_leaderboard(board)
     if figure:
