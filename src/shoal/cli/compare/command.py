@@ -70,9 +70,7 @@ def compare(
     from shoal.cli.compare.suite import compare_suite
     from shoal.cli.options import check_positive
     from shoal.core.errors import ScenarioError
-    from shoal.experiments.paired import need_scipy
 
-    need_scipy()
     if figure:
         from shoal.viz.files import figure_format
 

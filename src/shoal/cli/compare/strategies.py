@@ -42,7 +42,7 @@ def compare_strategies(
     from shoal.experiments.contenders import contenders
     from shoal.experiments.design import parse_vary
     from shoal.experiments.executors import in_threads
-    from shoal.metrics.summary import METRICS
+    from shoal.metrics.summary import METRICS, bounds_of
 
     if metric not in METRICS:
         raise ScenarioError(f"--metric {metric}", "is no metric", f"there are: {', '.join(METRICS)}")
@@ -57,7 +57,8 @@ def compare_strategies(
     tell_failures(row for _, strategies in found for rows in strategies.values() for row in rows)
     direction = direction_of(metric)
     table = {_told(point): (point, values_of(strategies, metric)) for point, strategies in found}
-    comparison = compare(table, baseline, {each.name for each in everybody if each.informed}, direction)
+    informed = {each.name for each in everybody if each.informed}
+    comparison = compare(table, baseline, informed, direction, bounds_of(metric))
     if figure:
         from shoal.viz.files import save_figure
 
