@@ -277,7 +277,7 @@ def _origin(record: "Record") -> tuple[float, float] | None:
 
 
 def _grid_mapping(lon: float, lat: float) -> Variable:
-    """The projection of recorded tracks, see scenario.tracks."""
+    """The projection of recorded tracks, see tracks.ground."""
     attributes = {
         "grid_mapping_name": "azimuthal_equidistant",
         "longitude_of_projection_origin": lon,

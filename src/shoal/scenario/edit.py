@@ -16,6 +16,9 @@ from shoal.scenario.strategy_choice import StrategyChoice
 
 Table = dict[str, Any]
 
+ORIGIN = "area.origin"
+READING = ("file", "id", "max_gap", "max_speed", "day_first")  # fields of a target: which fixes of a file are used
+
 
 def apply(table: Table, changes: Mapping[str, Any]) -> Table:
     """Return a changed copy of a table; names are shorthands (see SHORTHANDS) or dotted paths like network.neighbors.
@@ -39,6 +42,7 @@ def apply(table: Table, changes: Mapping[str, Any]) -> Table:
             known = [*SHORTHANDS, *Scenario.model_fields]
             hint = did_you_mean(key, known) or f"there are: {', '.join(known)}; or a path such as network.loss; "
             raise ScenarioError(name, f"is no field of a scenario (value {value!r})", hint.rstrip("; "))
+    _drop_digests(changed, changes)
     return changed
 
 
@@ -73,7 +77,9 @@ def set_path(table: Table, path: str, value: Any) -> None:
 
 
 def parse_value(text: str) -> Any:
-    """Read a value as TOML would (number, true, list, "text"); anything else is text, such as 5 kn or sequential."""
+    """Read a value as TOML would (number, true, list, "text"), or null; anything else is text, such as 5 kn."""
+    if text == "null":
+        return None
     try:
         return tomllib.loads(f"value = {text}")["value"]
     except tomllib.TOMLDecodeError:
@@ -91,6 +97,16 @@ def parse_assignment(text: str) -> tuple[str, Any]:
     if not equals or not re.fullmatch(r"[\w.\-]+", path.strip()):
         raise ScenarioError(f"--set {text}", "is no assignment", "write path=value, such as network.neighbors=12")
     return path.strip(), parse_value(value.strip())
+
+
+def _drop_digests(table: Table, changes: Mapping[str, Any]) -> None:
+    """A recorded track that is read in another way is another one: the digest of the old one is void."""
+    targets = table.get("targets")
+    for n, target in enumerate(targets if isinstance(targets, list) else ()):
+        if isinstance(target, dict) and "digest" in target and f"targets.{n}.digest" not in changes:
+            reading = (ORIGIN, *(f"targets.{n}.{name}" for name in READING))
+            if any(name in changes for name in reading):
+                del target["digest"]
 
 
 def _set_neighbors(table: Table, value: Any) -> None:
