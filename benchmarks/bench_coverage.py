@@ -10,13 +10,14 @@ of runs of this length. 93-97 % is the aim. tests/record/test_coverage.py holds 
 
 import argparse
 import math
-from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from shoal.metrics.summary import METRICS, Facts, batch_values, bounds_of
+from shoal.metrics.summary import METRICS
 from shoal.metrics.tally import Tally
+from shoal.record.record import Record
 from shoal.record.statistics import estimate
 from shoal.runs import simulate
 from shoal.scenario.edit import apply
@@ -41,33 +42,34 @@ class Coverage(NamedTuple):
     replicates: tuple[float, ...]
 
 
-def runs_of(scenario: str, steps: int, runs: int, seed: int = 777) -> tuple[Sequence[Tally], Facts]:
-    """The tallies of so many runs."""
-    record = simulate(scenario_from(apply(read_table(scenario), {"steps": steps, "seed": seed})), runs=runs)
-    return record.tallies, record.facts
+def runs_of(scenario: str, steps: int, runs: int, seed: int = 777) -> Record:
+    """So many runs."""
+    return simulate(scenario_from(apply(read_table(scenario), {"steps": steps, "seed": seed})), runs=runs)
 
 
 def long_run(scenario: str, steps: int) -> dict[str, float]:
     """Mean of each metric over so many steps, in runs whose first batches are left out."""
     length = 10 * BURN_IN  # of 20 batches: two are left out
-    tallies, facts = runs_of(scenario, length, max(1, steps // length), seed=99)
-    late = [Tally._make(part[2:] if part.shape[0] == tally.steps.size else part for part in tally) for tally in tallies]
-    return {name: float(np.mean([metric.formula(tally, facts) for tally in late])) for name, metric in METRICS.items()}
+    record = runs_of(scenario, length, max(1, steps // length), seed=99)
+    late = [
+        Tally._make(part[2:] if part.shape[0] == tally.steps.size else part for part in tally)
+        for tally in record.tallies
+    ]
+    return {
+        name: float(np.mean([metric.formula(tally, record.facts) for tally in late]))
+        for name, metric in METRICS.items()
+    }
 
 
-def coverage(name: str, tallies: Sequence[Tally], facts: Facts, truth: float = math.nan) -> Coverage:
+def coverage(name: str, record: Record, truth: float = math.nan) -> Coverage:
     """Measure one metric on runs of one length."""
-    metric, bounds = METRICS[name], bounds_of(name, facts.agents, facts.reach)
-
-    def formula(tally: Tally) -> float:
-        return metric.formula(tally, facts)
-
-    values = np.array([formula(tally) for tally in tallies])
+    values, bounds = (
+        np.array([METRICS[name].formula(tally, record.facts) for tally in record.tallies]),
+        record.bounds(name),
+    )
     known = np.flatnonzero(np.isfinite(values))
     own = float(values[known].mean())
-    single = [
-        estimate(values[[run]], None if metric.once else batch_values(formula, tallies[run]), bounds) for run in known
-    ]
+    single = [replace(record, tallies=(record.tallies[run],)).estimate(name) for run in known]
     told = np.array([each.ci95 for each in single if each.ci95]).reshape(-1, 2)
     deviation = float(values[known].std(ddof=1))
     rng = np.random.default_rng(1)
@@ -98,17 +100,17 @@ def main() -> None:
     asked = parser.parse_args()
     truth = long_run(asked.scenario, asked.long)
     for steps, runs in zip(asked.steps, asked.runs, strict=True):
-        print_table(f"{asked.scenario}, {runs} runs of {steps:,} steps", *runs_of(asked.scenario, steps, runs), truth)
+        print_table(f"{asked.scenario}, {runs} runs of {steps:,} steps", runs_of(asked.scenario, steps, runs), truth)
 
 
-def print_table(title: str, tallies: Sequence[Tally], facts: Facts, truth: dict[str, float]) -> None:
+def print_table(title: str, record: Record, truth: dict[str, float]) -> None:
     """One row per metric."""
     print(
         f"{title}\n{'':18}{'told':>6}{'mean':>7}{'long':>7}{'width':>7}"
         + "".join(f"{size:5d} runs" for size in REPLICATES)
     )
     for name in METRICS:
-        found = coverage(name, tallies, facts, truth[name])
+        found = coverage(name, record, truth[name])
         cells = [f"{value:7.3f}" if math.isfinite(value) else f"{'-':>7}" for value in found[1:4]]
         several = [f"{value:10.3f}" if math.isfinite(value) else f"{'-':>10}" for value in found.replicates]
         print(f"{name:18}{found.told:6.2f}{''.join(cells)}{''.join(several)}", flush=True)

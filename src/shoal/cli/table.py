@@ -55,6 +55,9 @@ def print_record(record: Record) -> None:
     console.print(table)
     console.print("phi histogram, agents per step from -1 (away) to +1 (toward):")
     console.print("  " + " ".join(f"{agents:.2f}" for agents in record.phi_histogram().sum(axis=0)))
+    short = ", ".join(_label(name) for name in record.too_short())
+    if short:
+        console.print(f"[dim]too short for an interval of {short}: more steps or more runs tell it[/dim]")
     method = "over runs" if runs > 1 else "by batch means"
     console.print(f"[dim]intervals {method}; {record.provenance['seconds']:g} s[/dim]")
 

@@ -22,12 +22,12 @@ def name_text(each: Standing) -> str:
 
 
 def value_text(each: Standing) -> str:
-    """Mean, half the width of its interval, and of how many runs if some are missing."""
+    """Mean, its interval, and of how many runs if some are missing."""
     runs = len(each.value.runs)
     if runs == 0:
         return f"none of {each.missing} runs"
     some = f" ({runs} of {runs + each.missing} runs)" if each.missing else ""
-    return number(each.value.mean) + _half(each.value.ci95) + some
+    return number(each.value.mean) + _interval(each.value.mean, each.value.ci95) + some
 
 
 def difference_text(each: Standing) -> str:
@@ -65,6 +65,14 @@ def family_text(family: str) -> str:
 def number(value: float) -> str:
     """Three decimals, one for large numbers."""
     return f"{value:.{3 if abs(value) < 100 else 1}f}"
+
+
+def _interval(mean: float, interval: tuple[float, float] | None) -> str:
+    """Half its width; its ends where a bound makes it lopsided."""
+    if interval is None:
+        return ""
+    below, above = number(mean - interval[0]), number(interval[1] - mean)
+    return f" ± {below}" if below == above else f" [{number(interval[0])}, {number(interval[1])}]"
 
 
 def _half(interval: tuple[float, float] | None) -> str:

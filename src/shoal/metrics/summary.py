@@ -16,7 +16,6 @@ class Facts(NamedTuple):
 
     fleets, counts, max_speeds : name, number of agents (those who join later too) and top speed [m/s] of each fleet
     unit [m] : one arena unit; time_step [s]; area [m^2]; report_bytes : size of one report [B]
-    reach : share of the arena, as `coverage` sees it, where agents may go
     """
 
     fleets: tuple[str, ...]
@@ -26,7 +25,6 @@ class Facts(NamedTuple):
     time_step: float
     area: float = float("nan")
     report_bytes: int = REPORT_BYTES
-    reach: float = 1.0
 
     @property
     def agents(self) -> int:
@@ -217,6 +215,8 @@ def batch_values(formula: Callable[[Tally], float], tally: Tally) -> Floats:
     whole = Tally._make(_summed(part, batches) for part in tally)
     heard = [batch for batch in range(batches) if math.isfinite(formula(batch_of(tally, batch)))]
     count, value = len(heard), formula(whole)
+    if count == 1:
+        return np.array([value])
     return np.array([count * value - (count - 1) * formula(_without(whole, tally, batch)) for batch in heard])
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from shoal.metrics.coverage import reachable
 from shoal.metrics.each_target import each_target, loss_lengths
 from shoal.metrics.robustness import Robustness, robustness
 from shoal.metrics.summary import (
@@ -23,7 +24,7 @@ from shoal.metrics.summary import (
     phi_histogram,
 )
 from shoal.metrics.tally import Tally
-from shoal.record.statistics import Estimate, estimate
+from shoal.record.statistics import FEWEST, Estimate, all_alike, estimate
 from shoal.record.trajectory import Trajectory
 
 
@@ -53,12 +54,35 @@ class Record:
         ------
         KeyError : no metric of this name
         """
-        told, facts = METRICS[metric], self.facts
-        values = [told.formula(tally, facts) for tally in self.tallies]
-        alone = None
-        if len(values) == 1 and not told.once:
-            alone = batch_values(lambda tally: told.formula(tally, facts), self.tallies[0])
-        return estimate(values, alone, bounds_of(metric, facts.agents, facts.reach))
+        values = [METRICS[metric].formula(tally, self.facts) for tally in self.tallies]
+        return estimate(values, self._batches(metric), self.bounds(metric))
+
+    def bounds(self, metric: str) -> Bounds:
+        """Between which values a metric lies in this scenario, whatever happens.
+
+        Raises
+        ------
+        KeyError : no metric of this name
+        """
+        area = self.scenario["area"]
+        return bounds_of(metric, self.facts.agents, reachable(area["width"], area["height"], area["agent_margin"]))
+
+    def too_short(self) -> list[str]:
+        """Metrics that vary within a single run, which is too short to tell how much: they have no interval."""
+        found = []
+        for metric in METRICS:
+            batches = self._batches(metric)
+            varies = batches is not None and batches.size > 0 and (batches.size < FEWEST or not all_alike(batches))
+            if varies and self.estimate(metric).ci95 is None:
+                found.append(metric)
+        return found
+
+    def _batches(self, metric: str) -> npt.NDArray[np.float64] | None:
+        """Values in the batches of a single run, of a metric that has any."""
+        told = METRICS[metric]
+        if len(self.tallies) > 1 or told.once:
+            return None
+        return batch_values(lambda tally: told.formula(tally, self.facts), self.tallies[0])
 
     def phi_histogram(self) -> npt.NDArray[np.float64]:
         """Mean agents per step in each bin of phi from -1 to +1, by fleet: (F, 11). All bins sum to N. Eq. 8."""
