@@ -12,6 +12,7 @@ from shoal.core.agents import NEVER, Minds, as_records
 from shoal.core.errors import RecordError, ScenarioError, StrategyError
 from shoal.core.files import whole_file
 from shoal.core.phase import put
+from shoal.core.sheet import shown
 from shoal.engine.phases import PHASES, Addresses
 from shoal.engine.rollout import set_out
 from shoal.engine.stage import Frames, Stage, new_scratch
@@ -79,6 +80,11 @@ class Simulation:
         _set_out(here, places, lifetimes, losses_of(scenario), self._seed, run)
         del held
         self.begin()
+
+    def __repr__(self) -> str:
+        """One line: of what, and how far."""
+        done = f"step {self.number:,} of {self.scenario.steps:,}"
+        return f"<Simulation of {shown(self.scenario.name)}, run {self.run}: {done}>"
 
     def begin(self) -> None:
         """Set up every agent's memory, as its strategy does before the first step."""

@@ -2,14 +2,16 @@
 
 import json
 import random
+import warnings
 from datetime import datetime, timedelta
 
+import numpy as np
 import pytest
 
 from shoal.core.errors import ShoalError
 from shoal.tracks.read import read_track
 
-FILES, SHARDS = 2000, 20
+FILES, SHARDS, NETCDF_FILES = 2000, 20, 200
 COUNT = 25
 STAMPS = [f"{datetime(2024, 3, 10, 12) + timedelta(minutes=i):%Y-%m-%dT%H:%M:%SZ}" for i in range(COUNT)]
 PLACES = [(54 + 0.0009 * i, 10 + 0.0012 * i) for i in range(COUNT)]
@@ -102,6 +104,74 @@ def odd_bytes(odd, text):
     at = odd.randrange(len(data) + 1)
     noise = odd.randbytes(odd.choice([0, 0, 1, 5, 300]))
     return data[:at] + noise + data[at + odd.choice([0, len(noise)]) :]
+
+
+def netcdf(odd, path):
+    """A file whose variables have odd names, sizes, types and attributes."""
+    netcdf4 = pytest.importorskip("netCDF4")
+    sizes = {"obs": odd.choice([COUNT, COUNT, COUNT, 1]), "trajectory": odd.choice([1, 2]), "text": 3}
+    shape = odd.choice([["obs"], ["obs"], ["obs"], ["trajectory", "obs"], ["obs", "trajectory"], [], ["obs", "obs"]])
+    since = [
+        "seconds since 1970-01-01",
+        "days since 1950-01-01",
+        "s since 2024-03-10T12:00:00Z",
+        "minutes since",
+        "m",
+        "",
+    ]
+    with netcdf4.Dataset(path, "w", format=odd.choice(["NETCDF4", "NETCDF3_CLASSIC"])) as dataset:
+        for name, size in sizes.items():
+            dataset.createDimension(name, size)
+
+        def variable(name, over, values, kind="f8", **attributes):
+            made = dataset.createVariable(name, kind, over)
+            made.setncatts({key: value for key, value in attributes.items() if odd.random() < 0.9})
+            wanted = np.broadcast_to(np.resize(values, made.shape or (1,)), made.shape or (1,))
+            made[...] = wanted if made.shape else wanted[0]
+
+        for name, values, units in (
+            ("time", np.arange(COUNT) * 60.0, odd.choice(since)),
+            ("lat", [lat for lat, _ in PLACES], "degrees_north"),
+            ("lon", [lon for _, lon in PLACES], "degrees_east"),
+        ):
+            over = shape if odd.random() < 0.9 else odd.choice([["obs"], ["trajectory"], []])
+            values = np.where(odd.random() < 0.1, odd.choice([np.nan, np.inf, -9999.0, 1e300, 181.0]), values)
+            kind = odd.choice(["f8", "f8", "f8", "f4", "i4", "i2"])
+            with np.errstate(all="ignore"):
+                values = values if kind.startswith("f") else np.nan_to_num(values).clip(-30000, 30000)
+                known = odd.choice([name, name, name, name.upper(), "x" + name])
+                variable(known, over, values.astype(kind), kind, units=units, valid_min=odd.choice([0, "zero"]))
+        if odd.random() < 0.5:
+            role = {"cf_role": "trajectory_id", "sample_dimension": "obs", "instance_dimension": "trajectory"}
+            for key in odd.sample(list(role), odd.randrange(1, 4)):
+                over = odd.choice([["trajectory"], ["obs"], []])
+                variable(
+                    odd.choice(["id", "rowsize", "x"]) + key,
+                    over,
+                    np.array([odd.choice([0, 1, 7, COUNT, -3])]),
+                    "i4",
+                    **{key: role[key]},
+                )
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("shard", range(4))
+def test_an_odd_netcdf_file_is_read_or_refused_with_one_clear_error(tmp_path, shard):
+    read = 0
+    for n in range(shard, NETCDF_FILES, 4):
+        odd = random.Random(n)
+        path = tmp_path / f"{n}.nc"
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of what is written
+            netcdf(odd, path)
+        if odd.random() < 0.1:
+            path.write_bytes(path.read_bytes()[: odd.randrange(400)])
+        outcome = outcome_of(path, odd.choice([None, None, None, "all", "trajectory=0"]))
+        if isinstance(outcome, ShoalError):
+            assert all(outcome.args), n
+        else:
+            read += 1
+    assert read > 0
 
 
 @pytest.mark.timeout(120)

@@ -1,5 +1,6 @@
 """Specification of reading a recorded track: options, gaps, digest, real files."""
 
+import os
 import sys
 
 import numpy as np
@@ -62,6 +63,27 @@ class TestDigest:
         }
         assert len(digests) == 4
         assert {len(digest) for digest in digests} == {64}
+
+
+class TestMemory:
+    """A file is read once, unless it changes."""
+
+    def test_it_is_not_read_again_for_another_max_speed(self, tmp_path, monkeypatch):
+        path = eastward(tmp_path, [0.0, 0.001, 0.002])
+        os.utime(path, (1_600_000_000, 1_600_000_000))
+        first = read_track(path)
+        monkeypatch.setattr("shoal.tracks.read.read_table", None)
+        assert read_track(path, max_speed=80.0).digest == first.digest
+
+    @pytest.mark.parametrize("when", [1_600_000_000, None])
+    def test_a_file_that_changed_is_read_again(self, tmp_path, when):
+        digests = []
+        for lon in (0.002, 0.003):
+            path = eastward(tmp_path, [0.0, 0.001, lon])
+            if when:
+                os.utime(path, (when + lon * 1000, when + lon * 1000))
+            digests.append(read_track(path).digest)
+        assert digests[0] != digests[1]
 
 
 class TestMissingExtra:

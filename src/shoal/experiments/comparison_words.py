@@ -4,6 +4,7 @@ import math
 
 from shoal.experiments.comparison import Standing
 from shoal.experiments.paired import SIGNIFICANT
+from shoal.record.words import spread_text
 
 REFERENCES = (
     "References that know the target have no rank: no buoy could follow them. They are no upper bound; no proven one "
@@ -64,15 +65,15 @@ def family_text(family: str) -> str:
 
 def number(value: float) -> str:
     """Three decimals, one for large numbers."""
-    return f"{value:.{3 if abs(value) < 100 else 1}f}"
+    return f"{value:.{_decimals(value)}f}"
+
+
+def _decimals(value: float) -> int:
+    return 3 if abs(value) < 100 else 1
 
 
 def _interval(mean: float, interval: tuple[float, float] | None) -> str:
-    """Half its width; its ends where a bound makes it lopsided."""
-    if interval is None:
-        return ""
-    below, above = number(mean - interval[0]), number(interval[1] - mean)
-    return f" ± {below}" if below == above else f" [{number(interval[0])}, {number(interval[1])}]"
+    return spread_text(mean, *interval, _decimals(mean)) if interval else ""
 
 
 def _half(interval: tuple[float, float] | None) -> str:

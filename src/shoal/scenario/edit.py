@@ -2,7 +2,7 @@
 
 import re
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from shoal.scenario.strategy_choice import StrategyChoice
 
 Table = dict[str, Any]
 
+TRACK = ("target_track", "track_id")  # see change.py
 ORIGIN = "area.origin"
 READING = ("file", "id", "max_gap", "max_speed", "day_first")  # fields of a target: which fixes of a file are used
 
@@ -39,11 +40,24 @@ def apply(table: Table, changes: Mapping[str, Any]) -> Table:
         elif key in Scenario.model_fields:
             changed[key] = plain(value)
         else:
-            known = [*SHORTHANDS, *Scenario.model_fields]
-            hint = did_you_mean(key, known) or f"there are: {', '.join(known)}; or a path such as network.loss; "
-            raise ScenarioError(name, f"is no field of a scenario (value {value!r})", hint.rstrip("; "))
+            check_words({name: value})
     _drop_digests(changed, changes)
     return changed
+
+
+def check_words(changes: Mapping[str, Any], also: Iterable[str] = ()) -> None:
+    """Refuse what is no shorthand, field or path; `also` may have been meant.
+
+    Raises
+    ------
+    ScenarioError : it names the nearest that there is, or all
+    """
+    for name, value in changes.items():
+        key = name.replace("-", "_")
+        known = [*SHORTHANDS, *TRACK, *Scenario.model_fields, *also]
+        if "." not in name and key not in known:
+            hint = did_you_mean(key, known).rstrip() or f"there are: {', '.join(known)}; or a path such as network.loss"
+            raise ScenarioError(name, f"is no field of a scenario (value {value!r})", hint)
 
 
 def _rank(change: tuple[str, Any]) -> int:

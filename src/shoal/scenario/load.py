@@ -15,7 +15,7 @@ from shoal.core.errors import ScenarioError, StrategyError, did_you_mean
 from shoal.scenario.frozen import plain
 from shoal.scenario.plugins import find_strategy, load_strategies
 from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Join, Loss, Motion, Network, Scenario
-from shoal.scenario.strategy_choice import StrategyChoice, StrategyParamsError, params_model
+from shoal.scenario.strategy_choice import StrategyParamsError, params_model
 from shoal.scenario.targets import TARGETS
 
 
@@ -43,15 +43,16 @@ def load(source: Source, /, **changes: Any) -> Scenario:
     TrackError : the recorded track of `target_track` cannot be used
     StrategyError : the strategy cannot be loaded, or was defined anew since the scenario was made
     """
-    table, where = table_of(source), name_of_source(source)
-    if isinstance(source, Scenario) and "strategy" not in changes:
-        _refuse_outdated(source)
-    if not changes:
-        text = _text_of(source) if isinstance(source, (str, PathLike)) else ""
-        return scenario_from(table, where=where, text=text)
-    from shoal.scenario.change import change  # which needs scenario_from
+    table, where, text = table_of(source), name_of_source(source), ""
+    if changes:
+        from shoal.scenario.change import change  # which needs scenario_from
 
-    return scenario_from(change(table, changes), where=where)
+        table = change(table, changes)
+    elif isinstance(source, (str, PathLike)):
+        text = _text_of(source)
+    scenario = scenario_from(table, where=where, text=text)
+    _refuse_outdated(scenario)
+    return scenario
 
 
 def table_of(source: Source) -> dict[str, Any]:
@@ -78,7 +79,7 @@ def name_of_source(source: Source) -> str:
 def _refuse_outdated(scenario: Scenario) -> None:
     choices = (scenario.strategy, *(fleet.strategy for fleet in scenario.fleets))
     for choice in choices:
-        if isinstance(choice, StrategyChoice) and choice.outdated:
+        if choice and choice.outdated:
             raise StrategyError(
                 f"strategy {choice.name!r}",
                 "was defined anew since this scenario was made",

@@ -3,12 +3,15 @@
 import hashlib
 import json
 from collections.abc import Mapping
+from html import escape
 from typing import Annotated, Any, Literal, Self, cast
 
 from pydantic import Field, model_validator
 
-from shoal.core.errors import ScenarioError, did_you_mean
+from shoal.core.errors import ScenarioError, ShoalError, did_you_mean
+from shoal.core.sheet import shown
 from shoal.core.units import Degrees, Kilograms, Meters, MetersPerSecond, Seconds
+from shoal.scenario.choices import headline
 from shoal.scenario.frozen import Chance, Count, Frozen, NotNegative, Positive
 from shoal.scenario.strategy_choice import StrategyChoice
 from shoal.scenario.targets import MovingTarget, Target
@@ -183,6 +186,29 @@ class Scenario(Frozen):
         from shoal.scenario.load import scenario_from
 
         return cast(Self, scenario_from({**vars(self), **update}))
+
+    def __repr__(self) -> str:
+        """One line: who looks for what, for how long."""
+        try:
+            table = self.model_dump(mode="json")
+            return (
+                f"<Scenario {shown(self.name)}: {shown(headline(table))}; "
+                f"{self.steps:,} steps of {self.time_step:g} s, seed {self.seed}, {self.hash}>"
+            )
+        except Exception:  # one made by force must be shown, too
+            return "<Scenario that cannot run>"
+
+    __str__ = __repr__
+
+    def _repr_html_(self) -> str:
+        """The line, and the scenario as its file would say it, for a notebook."""
+        from shoal.scenario.load import to_toml
+
+        try:
+            text = to_toml(self)
+        except ShoalError as error:
+            text = str(error)
+        return f"<details><summary>{escape(repr(self))}</summary><pre>{escape(text)}</pre></details>"
 
     @property
     def counts(self) -> list[int]:

@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import reduce
+from operator import xor
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -91,7 +92,7 @@ class _Log:
                 if not found:
                     continue
                 text = found["sentence"]
-                if found["sum"] and int(found["sum"], 16) != reduce(lambda a, b: a ^ b, text[1:].encode()):
+                if found["sum"] and int(found["sum"], 16) != reduce(xor, text[1:].encode(), 0):
                     self.wrong += 1
                     continue
                 tagged = TAGGED_TIME.search(found["before"])

@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import time
 from functools import lru_cache
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from shoal.tracks.wanted import parse_wanted
 
 SHORTEST_MAX_GAP = 300.0  # [s]
 USUAL_INTERVALS_PER_GAP = 5.0
+SETTLED = 2.0  # [s] a file that changed less long ago may change again within one tick of its clock
 REMEMBERED = 8  # tracks: who follows one reads it for the arena and again for the run
 
 
@@ -52,22 +54,22 @@ def read_track(
     _check_options(origin, max_gap, max_speed)
     path = Path(path)
     fixes, notes = clean(path, _chosen(path, track_id, day_first), max_speed)
-    time = np.round(fixes.unix - fixes.unix[0], 6)
-    intervals = np.diff(time)
+    seconds = np.round(fixes.unix - fixes.unix[0], 6)
+    intervals = np.diff(seconds)
     if max_gap is None:
         max_gap = max(SHORTEST_MAX_GAP, USUAL_INTERVALS_PER_GAP * float(np.median(intervals)))
     if origin is None:
         origin = center(fixes)
     x, y = project(path, fixes, origin)
     return Track(
-        time=time,
+        time=seconds,
         x=x,
         y=y,
         origin=(float(origin[0]), float(origin[1])),
         start=iso(fixes.unix[0]),
         max_gap=float(max_gap),
         notes=(*fixes.notes, *notes, *_note_silences(intervals, max_gap), *note_distance(x, y)),
-        digest=_digest(time, x, y, max_gap),
+        digest=_digest(seconds, x, y, max_gap),
     )
 
 
@@ -75,6 +77,8 @@ def _chosen(path: Path, track_id: str | None, day_first: bool | None) -> Fixes:
     """The fixes as the file has them, those of the last few tracks from memory."""
     check_file(path)
     stat = path.stat()
+    if time.time() - stat.st_mtime < SETTLED:
+        return _read.__wrapped__(path, track_id, day_first, ())
     return _read(path, track_id, day_first, (stat.st_ino, stat.st_size, stat.st_mtime_ns))
 
 
