@@ -1,6 +1,7 @@
 """A record as a table that fits a terminal."""
 
 import sys
+import textwrap
 from collections.abc import Mapping
 from typing import Any
 
@@ -57,7 +58,8 @@ def print_record(record: Record) -> None:
     console.print("  " + " ".join(f"{agents:.2f}" for agents in record.phi_histogram().sum(axis=0)))
     short = ", ".join(_label(name) for name in record.too_short())
     if short:
-        console.print(f"[dim]too short for an interval of {short}: more steps or more runs tell it[/dim]")
+        told = textwrap.fill(f"too short for an interval of {short}: more steps or more runs tell it", 78)
+        console.print(Text(told, style="dim"))
     method = "over runs" if runs > 1 else "by batch means"
     console.print(f"[dim]intervals {method}; {record.provenance['seconds']:g} s[/dim]")
 

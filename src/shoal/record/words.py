@@ -16,7 +16,7 @@ def interval_text(value: Estimate) -> str:
 
 
 def spread_text(mean: float, low: float | None, high: float | None, decimals: int) -> str:
-    """An interval after its mean: half its width, or its ends where a bound makes it lopsided; nothing if there is none.
+    """An interval after its mean: half its width, or its ends where a bound makes it lopsided; or nothing.
 
     Lopsided: one side is longer than the other by more than a tenth of both.
     """
