@@ -12,7 +12,7 @@ from shoal.core.agents import NEVER, Minds, as_records
 from shoal.core.errors import RecordError, ScenarioError, StrategyError
 from shoal.core.files import whole_file
 from shoal.core.phase import put
-from shoal.core.sheet import shown
+from shoal.core.text import plain
 from shoal.engine.phases import PHASES, Addresses
 from shoal.engine.rollout import set_out
 from shoal.engine.stage import Frames, Stage, new_scratch
@@ -84,7 +84,7 @@ class Simulation:
     def __repr__(self) -> str:
         """One line: of what, and how far."""
         done = f"step {self.number:,} of {self.scenario.steps:,}"
-        return f"<Simulation of {shown(self.scenario.name)}, run {self.run}: {done}>"
+        return f"<Simulation of {plain(self.scenario.name)}, run {self.run}: {done}>"
 
     def begin(self) -> None:
         """Set up every agent's memory, as its strategy does before the first step."""

@@ -78,7 +78,7 @@ class TestLooks:
         assert found._repr_html_().count("<tr>") == 1 + 4
 
     def test_a_figure_that_a_notebook_shows(self, found):
-        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install 'shoal[plots]'")
+        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install '.[plots]'")
         assert found.plot(x="neighbors", hue="fast")._repr_png_().startswith(b"\x89PNG")
 
     def test_failures_are_told(self, tmp_path):

@@ -1,14 +1,13 @@
 """A record as a table that fits a terminal."""
 
-import sys
 import textwrap
 from collections.abc import Mapping
 from typing import Any
 
-from rich.console import Console
 from rich.table import Table
-from rich.text import Text
 
+from shoal.cli.console import results_console, styled
+from shoal.core.text import plain
 from shoal.metrics.summary import METRICS
 from shoal.record.record import Record
 from shoal.record.statistics import Estimate
@@ -31,15 +30,15 @@ _OF_TARGETS = ("time_on_target", "first_detection", "reacquisition")
 
 def print_record(record: Record) -> None:
     """Print what was run, every metric with its interval, and where it comes from."""
-    console = Console(file=sys.stdout, highlight=False)
+    console = results_console()
     scenario, facts = record.scenario, record.facts
     fleets = " + ".join(
-        f"{count} {name} ({speed:g} m/s{_joining(scenario, name)})"
+        f"{count} {plain(name)} ({speed:g} m/s{_joining(scenario, name)})"
         for name, count, speed in zip(facts.fleets, facts.counts, facts.max_speeds, strict=True)
     )
     targets = ", ".join(_target(target) for target in scenario["targets"])
     runs = len(record.tallies)
-    console.print(f"[bold]{scenario['name']}[/bold]: {fleets}, k = {degree_text(scenario)}")
+    console.print(styled(plain(scenario["name"]), "bold") + styled(f": {fleets}, k = {degree_text(scenario)}", ""))
     console.print(f"strategy {strategy_text(scenario)}; target {targets}")
     console.print(
         f"{runs} run{'s' * (runs > 1)} of {scenario['steps']:,} steps of {scenario['time_step']:g} s, "
@@ -59,9 +58,9 @@ def print_record(record: Record) -> None:
     short = ", ".join(_label(name) for name in record.too_short())
     if short:
         told = textwrap.fill(f"too short for an interval of {short}: more steps or more runs tell it", 78)
-        console.print(Text(told, style="dim"))
+        console.print(styled(told, "dim"))
     method = "over runs" if runs > 1 else "by batch means"
-    console.print(f"[dim]intervals {method}; {record.provenance['seconds']:g} s[/dim]")
+    console.print(styled(f"intervals {method}; {record.provenance['seconds']:g} s", "dim"))
 
 
 def _add_parts(table: Table, record: Record) -> None:
@@ -69,7 +68,7 @@ def _add_parts(table: Table, record: Record) -> None:
     fleets = record.facts.fleets if len(record.facts.fleets) > 1 else ()
     by_fleet = {name: record.fleet_estimate(name) for name in _OF_FLEETS} if fleets else {}
     for fleet in fleets:
-        table.add_row(Text(f"fleet {fleet}"))
+        table.add_row(f"fleet {plain(fleet)}")
         for name, values in by_fleet.items():
             table.add_row(f"  {_label(name)}", *_cells(values[fleet]), _unit(METRICS[name].unit))
     targets = record.target_estimates()
@@ -115,4 +114,4 @@ def _target(target: dict[str, object]) -> str:
         return f"at {target['speed']:g} m/s"
     if "speed" in target:
         return f"{target['kind']} at {target['speed']:g} m/s"
-    return f"{target['kind']} {target.get('id') or ''}".strip()
+    return plain(f"{target['kind']} {target.get('id') or ''}".strip())

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -41,12 +41,16 @@ class Bounds(NamedTuple):
 
 ANYTHING = Bounds()
 
+# Bounds that a scenario decides, and what they are where it is not known: how many agents there are, the share of cells
+# where they may go, the length of a run [s], and how often a target can be lost that is found at every other step [1/h].
+LIMITS = {"agents": math.inf, "reach": 1.0, "duration": math.inf, "flicker": math.inf}
+
 
 class Metric(NamedTuple):
     """A number per run: its unit, one sentence, and its formula over a tally whose batches are summed (B = 1).
 
     once : it happens once in a run, or the scenario decides it, so that batches of steps say nothing about its spread
-    low, high : its bounds; "agents" is their number, "reach" the share of the arena where they may go
+    low, high : its bounds; those that a scenario decides have a name, see LIMITS
     """
 
     unit: str
@@ -54,7 +58,7 @@ class Metric(NamedTuple):
     formula: Callable[[Tally, Facts], float]
     once: bool = False
     low: float = 0.0
-    high: float | Literal["agents", "reach"] = math.inf
+    high: float | str = math.inf
 
 
 def _share(part: npt.NDArray[Any], whole: npt.NDArray[Any]) -> float:
@@ -142,16 +146,19 @@ METRICS: dict[str, Metric] = {
         "time at which a target is there until it is first detected, mean over targets; the whole of it if never",
         lambda t, f: float(t.undetected.sum(axis=0).mean()) * f.time_step,
         once=True,
+        high="duration",
     ),
     "losses": Metric(
         "1/h",
         "how often a target is lost, per hour of it being there",
         lambda t, f: _share(t.losses, t.target_steps) * 3600.0 / f.time_step,
+        high="flicker",
     ),
     "reacquisition": Metric(
         "s",
         "mean time from the loss of a target to its next detection",
         lambda t, f: _share(t.ended_steps, t.ended) * f.time_step,
+        high="duration",
     ),
     "coverage": Metric(
         "1",
@@ -220,11 +227,10 @@ def batch_values(formula: Callable[[Tally], float], tally: Tally) -> Floats:
     return np.array([count * value - (count - 1) * formula(_without(whole, tally, batch)) for batch in heard])
 
 
-def bounds_of(name: str, agents: float = math.inf, reach: float = 1.0) -> Bounds:
-    """Bounds of a metric in a swarm of so many agents, which may go to a share of the arena."""
+def bounds_of(name: str, **limits: float) -> Bounds:
+    """Bounds of a metric, with those of LIMITS that are known."""
     metric = METRICS[name]
-    high = agents if metric.high == "agents" else reach if metric.high == "reach" else metric.high
-    return Bounds(metric.low, high)
+    return Bounds(metric.low, (LIMITS | limits)[metric.high] if isinstance(metric.high, str) else metric.high)
 
 
 def phi_histogram(tally: Tally) -> Floats:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shoal.core.errors import ShoalError
+from shoal.core.files import check_file
 from shoal.record.record import Record
 from shoal.viz.encoder import encoder, find_ffmpeg
 from shoal.viz.files import save_figure
@@ -14,7 +15,7 @@ from shoal.viz.film_page import FilmPage, film_size
 from shoal.viz.scene import Parts
 from shoal.viz.snapshot import frames_of
 from shoal.viz.stretch import stretch_of
-from shoal.viz.style import style
+from shoal.viz.style import require_matplotlib, style
 
 FORMATS = ("mp4", "gif", "png")
 SMALLEST, LARGEST = 200, 4096  # [pixel] a side
@@ -106,13 +107,13 @@ def check_film(file: Path, look: FilmLook) -> str:
     kind = file.suffix.lower().removeprefix(".")
     if kind not in FORMATS:
         raise ShoalError(str(file), "does not end in .mp4, .gif or .png", "name a film .mp4 or .gif, a still .png")
-    if not file.parent.is_dir():
-        raise ShoalError(str(file), f"cannot be written: there is no folder {file.parent}", "make the folder first")
+    check_file(file, ours=True)
     if look.fps is not None and not SLOWEST <= look.fps <= FASTEST:
         raise ShoalError("fps", f"is {look.fps:g}", f"choose {SLOWEST:g} to {FASTEST:g} frames per second")
     for side in (look.width, look.height):
         if side is not None and not SMALLEST <= side <= LARGEST:
             raise ShoalError("size", f"has a side of {side} pixels", f"choose {SMALLEST} to {LARGEST}")
+    require_matplotlib()
     if kind != "png":
         find_ffmpeg()
     return kind

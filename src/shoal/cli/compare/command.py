@@ -5,6 +5,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from shoal.cli.places import check_places
 from shoal.cli.startup import load_compiler
 from shoal.cli.whole import MaybeWhole
 
@@ -71,10 +72,7 @@ def compare(
     from shoal.cli.options import check_positive
     from shoal.core.errors import ScenarioError
 
-    if figure:
-        from shoal.viz.files import figure_format
-
-        figure_format(figure)  # refused before the runs, not after
+    check_places(out, figure)
     check_positive(runs=runs, steps=steps, jobs=jobs)
     if not suite:
         if markdown:
