@@ -15,8 +15,6 @@ from shoal.metrics.summary import METRICS
 from shoal.strategies import CATALOGUE
 from shoal.version import RESULTS_VERSION
 
-pytest.importorskip("scipy.stats", reason="scipy is not installed")
-
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "arena.md"
 EVERYBODY = contenders(sorted(CATALOGUE))
 
