@@ -68,6 +68,10 @@ class TestBounds:
     def test_of_the_swarm_are_its_size_and_where_it_may_go(self):
         assert bounds_of("engaged", agents=40) == (0.0, 40)
         assert bounds_of("coverage", reach=0.75) == (0.0, 0.75)
+        assert bounds_of("coverage") == (0.0, 1.0)
+
+    def test_of_times_are_the_length_of_the_run(self):
+        assert bounds_of("first_detection", duration=200.0) == bounds_of("reacquisition", duration=200.0) == (0.0, 200)
 
 
 class TestFormulas:

@@ -51,6 +51,10 @@ class TestEstimates:
             low, high = each.estimate(metric).ci95 or (each.bounds(metric))
             assert each.bounds(metric).low <= low <= high <= each.bounds(metric).high
 
+    def test_no_loss_is_longer_than_the_run_nor_more_frequent_than_every_other_step(self, pair):
+        assert pair.bounds("first_detection") == pair.bounds("reacquisition") == (0.0, 30.0)
+        assert pair.bounds("losses") == (0.0, 18_000.0)
+
     def test_a_run_is_too_short_for_what_it_has_few_windows_of(self, one_run):
         assert "coverage_rate" in one_run.too_short()
         assert "time_on_target" not in one_run.too_short()

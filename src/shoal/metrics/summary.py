@@ -41,9 +41,8 @@ class Bounds(NamedTuple):
 
 ANYTHING = Bounds()
 
-# Bounds that a scenario decides, and what they are where it is not known: how many agents there are, the share of
-# cells where they may go, the length of a run [s], and how often a target can be lost that is found at every other
-# step [1/h].
+# Bounds that a scenario decides, and what they are where it is not known: number of agents, share of cells where they
+# may go, length of a run [s], and how often a target is lost that is found at every other step [1/h].
 LIMITS = {"agents": math.inf, "reach": 1.0, "duration": math.inf, "flicker": math.inf}
 
 

@@ -104,7 +104,7 @@ def curve(rows: Iterable[Row], metric: Metric, along: str = "neighbors", **where
     x = sorted(cells)
     seeds = sorted(set.intersection(*(set(cell) for cell in cells.values()))) if cells else []
     runs = np.array([[cells[at][seed] for at in x] for seed in seeds]).reshape(len(seeds), len(x))
-    return Curve(np.array(x), runs, bounds_of(metric, AGENTS) if metric in METRICS else ANYTHING)
+    return Curve(np.array(x), runs, bounds_of(metric, agents=AGENTS) if metric in METRICS else ANYTHING)
 
 
 def heading_there(row: Row) -> float:

@@ -78,8 +78,14 @@ class Record:
         ------
         KeyError : no metric of this name
         """
-        area = self.scenario["area"]
-        return bounds_of(metric, self.facts.agents, reachable(area["width"], area["height"], area["agent_margin"]))
+        area, step = self.scenario["area"], self.facts.time_step
+        return bounds_of(
+            metric,
+            agents=self.facts.agents,
+            reach=reachable(area["width"], area["height"], area["agent_margin"]),
+            duration=self.scenario["steps"] * step,
+            flicker=1800.0 / step,
+        )
 
     def too_short(self) -> list[str]:
         """Metrics that vary within a single run, which is too short to tell how much: they have no interval."""
@@ -123,7 +129,7 @@ class Record:
         found = {}
         for fleet, name in enumerate(self.facts.fleets):
             alone = batch_values(partial(_of_fleet, formula, fleet), self.tallies[0]) if len(runs) == 1 else None
-            found[name] = estimate(runs[:, fleet], alone, bounds_of(metric, self.facts.counts[fleet]))
+            found[name] = estimate(runs[:, fleet], alone, bounds_of(metric, agents=self.facts.counts[fleet]))
         return found
 
     def target_estimates(self) -> list[dict[str, Estimate]]:
@@ -131,7 +137,7 @@ class Record:
         runs = [each_target(tally, self.facts) for tally in self.tallies]
         targets = range(self.tallies[0].target_steps.shape[1])
         return [
-            {name: estimate([run[name][j] for run in runs], bounds=bounds_of(name)) for name in runs[0]}
+            {name: estimate([run[name][j] for run in runs], bounds=self.bounds(name)) for name in runs[0]}
             for j in targets
         ]
 
@@ -152,9 +158,10 @@ class Record:
         `recovery` is the mean over the runs that recover; a run that does not is NaN among its `runs`.
         """
         changes = self.changes()
+        limits = dict.fromkeys(Robustness._fields, Bounds(0.0, 1.0)) | {"recovery": self.bounds("reacquisition")}
         runs = [robustness(tally, changes, self.facts.time_step) for tally in self.tallies]
         return [
-            {name: _over_some([getattr(run[c], name) for run in runs], bounds) for name, bounds in _OF_A_CHANGE.items()}
+            {name: _over_some([getattr(run[c], name) for run in runs], bounds) for name, bounds in limits.items()}
             for c in range(len(changes))
         ]
 
@@ -250,9 +257,6 @@ class Record:
         def __getattr__(self, name: str) -> Any:
             methods = [each for each in dir(type(self)) if not each.startswith("_")]
             raise no_attribute("a Record", name, dict.fromkeys([*type(self).__dataclass_fields__, *methods]))
-
-
-_OF_A_CHANGE = {name: Bounds(0.0, np.inf if name == "recovery" else 1.0) for name in Robustness._fields}
 
 
 def _over_some(values: list[float], bounds: Bounds) -> Estimate:
