@@ -2,21 +2,20 @@
 
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 
 from shoal.build import build_radio, build_swarm, build_targets, build_world, losses_of, open_tracks
 from shoal.compiling import entry_points
 from shoal.core.agents import NEVER, Minds, as_records
-from shoal.core.errors import RecordError, ScenarioError, StrategyError
-from shoal.core.files import whole_file
+from shoal.core.errors import ScenarioError, StrategyError
 from shoal.core.phase import put
 from shoal.core.text import plain
 from shoal.engine.phases import PHASES, Addresses
 from shoal.engine.rollout import set_out
 from shoal.engine.stage import Frames, Stage, new_scratch
 from shoal.metrics.tally import new_tally
+from shoal.record.state import read_state, write_state
 from shoal.record.trajectory import Trajectory
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
@@ -129,47 +128,24 @@ class Simulation:
         parts = {f"swarm.{name}": part for name, part in self.swarm._asdict().items()}
         parts |= {f"tally.{name}": part for name, part in self.tally._asdict().items()}
         parts |= {f"radio.{name}": part for name, part in self.radio._asdict().items() if isinstance(part, np.ndarray)}
-        return parts | {
-            "targets": self.targets,
-            "number": np.array(self.number),
-            "identity": np.array(self._identity()),
-        }
+        return parts | {"targets": self.targets, "number": np.array(self.number)}
 
     def save(self, file: str | Path) -> None:
         """Write the state to an .npz file, whole or not at all."""
-        with whole_file(file) as partial, partial.open("wb") as stream:
-            np.savez(stream, **self.state())
+        write_state(file, self._identity(), self.state())
 
     def restore(self, file: str | Path) -> None:
         """Continue from a saved state of the same scenario, seed and run.
 
         Raises
         ------
-        RecordError : no saved state, or one of something else
+        RecordError : no saved state, a damaged one, or one of something else
         """
-        try:
-            with Path(file).open("rb") as stream, np.load(stream) as state:
-                if str(state["identity"]) != self._identity():
-                    raise RecordError(
-                        str(file),
-                        f"was saved by {state['identity']}, this is {self._identity()}",
-                        "use the same scenario",
-                    )
-                saved = dict(state)  # read whole before anything is overwritten
-                number = int(saved["number"])
-                mine = self.state()
-                for name in mine:
-                    if saved[name].shape != mine[name].shape:
-                        raise ValueError(f"{name} has another shape")
-                for name in mine.keys() - {"number", "identity"}:
-                    mine[name][...] = saved[name]
-                self.number = number
-        except (OSError, ValueError, KeyError, EOFError, BadZipFile) as error:
-            if isinstance(error, RecordError):
-                raise
-            raise RecordError(
-                str(file), f"is no saved state: {error}", "name a file made by Simulation.save"
-            ) from error
+        mine = self.state()
+        saved = read_state(file, self._identity(), mine)  # read whole before anything is overwritten
+        for name in mine.keys() - {"number"}:
+            mine[name][...] = saved[name]
+        self.number = int(saved["number"])
 
     def _check_finite(self) -> None:
         """Refuse to go on with numbers that a strategy has spoiled.

@@ -44,6 +44,13 @@ def test_what_is_read_is_what_was_written(file):
         assert (values.dtype, values.tobytes()) == (ARRAYS[name].dtype, ARRAYS[name].tobytes())
 
 
+def test_a_file_of_something_else_is_not_replaced(file):
+    np.savez(file, thesis=np.zeros(3))
+    with pytest.raises(RecordError, match="was not made by Shoal"):
+        write_state(file, "one of run 3", ARRAYS)
+    assert list(np.load(file)) == ["thesis"]
+
+
 def test_that_of_another_run_is_refused(file):
     assert refusal(file, "one of run 4") == "was saved by one of run 3, this is one of run 4"
 

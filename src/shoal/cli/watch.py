@@ -10,7 +10,7 @@ from cyclopts import Parameter
 from shoal.cli.older import opened
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
-from shoal.cli.startup import load_compiler
+from shoal.cli.startup import load_compiler, tell_of_compiling
 from shoal.cli.whole import MaybeSteps, MaybeWhole, Number, Whole
 
 if TYPE_CHECKING:
@@ -116,7 +116,6 @@ def _watch(
     browser: bool,
     out: Path | None,
 ) -> None:
-    from shoal.compiling import needs_compiling
     from shoal.record.files import RecordFolder
     from shoal.scenario.load import scenario_from
     from shoal.view.server import live_app, serving
@@ -124,8 +123,8 @@ def _watch(
     from shoal.view.worker import Worker
 
     scenarios = [scenario_from(table, where=name) for table, name in zip(tables, names, strict=False)]
-    if any(needs_compiling(each) for each in scenarios):
-        note("compiling the engine (up to half a minute; once per strategy and version of Shoal)")
+    for scenario in {each.strategy.name: each for each in scenarios}.values():
+        tell_of_compiling(scenario)
     if out:
         with RecordFolder(out):  # refused now, not after the run
             pass
