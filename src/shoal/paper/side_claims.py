@@ -1,7 +1,7 @@
 """What the paper says beside its figures, C14 to C28: each with a number that decides, and its verdict.
 
-The paper gives most of these sentences no number, so the docstrings do: they were written before the runs. (That C25 and
-C26 look at every run, rather than at an interval of the mean, came after: runs agree to the last digit there.)
+The paper gives most of these sentences no number, so the docstrings do: they were written before the runs. (C25 and C26
+look at every run, rather than at an interval of the mean, since then: there runs agree to the last digit.)
 """
 
 from collections.abc import Mapping, Sequence
