@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from shoal.core.agents import Briefing, Own, Report, Truth
 from shoal.core.kernel import kernel
+from shoal.core.messages import Briefing, Own, Report, Truth
 from shoal.strategies import contract
 
 

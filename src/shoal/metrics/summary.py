@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from shoal.core.agents import REPORT_BYTES, Floats
+from shoal.core.agents import Floats
+from shoal.core.messages import REPORT_BYTES
 from shoal.metrics.tally import Tally, batch_of
 
 

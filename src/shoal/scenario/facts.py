@@ -1,6 +1,6 @@
 """What metrics need to know of a scenario."""
 
-from shoal.core.agents import REPORT_BYTES
+from shoal.core.messages import REPORT_BYTES
 from shoal.metrics.summary import Facts
 from shoal.scenario.crew import crew_of
 from shoal.scenario.schema import Scenario

@@ -1,0 +1,89 @@
+"""What an agent knows, what it says and what it heard.
+
+All SI: positions [m] in the arena's frame (origin at its center), velocities [m/s]. Nothing here needs more than
+Python: a small computer on a buoy imports it, too.
+"""
+
+from typing import Any, NamedTuple
+
+
+class Briefing(NamedTuple):
+    """What an agent is told before it leaves, and nothing that it could only learn at sea.
+
+    agents : N; half_x, half_y : agents may go to +- these [m]
+    reach : how far its sensor sees the smallest target [m]
+    share_begin, share_end : its part of the swarm's summed top speeds, in the order of ids, from 0 to 1
+    """
+
+    agents: int
+    half_x: float
+    half_y: float
+    reach: float
+    share_begin: float
+    share_end: float
+
+
+class Truth(NamedTuple):
+    """The nearest target as it is, for strategies declared `informed`; all others get zeros.
+
+    present : is there any; x, y [m]; vx, vy [m/s]; goal_x, goal_y : where it is heading to [m]
+    """
+
+    present: bool
+    x: float
+    y: float
+    vx: float
+    vy: float
+    goal_x: float
+    goal_y: float
+
+
+class Own(NamedTuple):
+    """What an agent knows of itself. `time` [s] since the start of the run, `fleet`: index of its fleet."""
+
+    id: int
+    x: float
+    y: float
+    vx: float
+    vy: float
+    on_target: bool
+    max_speed: float
+    time_step: float
+    time: float
+    fleet: int
+    briefing: Briefing
+    truth: Truth
+
+
+class Report(NamedTuple):
+    """What an agent tells its neighbors: the one message of the swarm. `told`: the memory fields its strategy tells."""
+
+    id: int
+    x: float
+    y: float
+    vx: float
+    vy: float
+    on_target: bool
+    told: Any
+
+
+REPORT_BYTES = 4 + 4 * 8 + 1  # id, position and velocity, on target; each field of `told` adds 8
+
+
+class Heard(NamedTuple):
+    """What an agent made of its neighbors' reports: one leader and one sum.
+
+    `found` is whether any neighbor may lead; x, y, vx, vy, on_target, told are the leader's (the agent's own if none).
+    `sum_x`, `sum_y` are the sums of the strategy's influence over all neighbors; `neighbors` is how many were heard.
+    """
+
+    found: bool
+    x: float
+    y: float
+    vx: float
+    vy: float
+    on_target: bool
+    sum_x: float
+    sum_y: float
+    neighbors: int
+    told: Any
