@@ -111,6 +111,11 @@ class TestPage:
         assert "#figure-gone" not in page.links
         assert "#claim-C3" in page.links
 
+    def test_counts_the_cases_of_a_claim(self, tmp_path):
+        found = a_reproduction(claims=[a_claim("C1", true=79, open=3)])
+        page = Page(write_report(found, tmp_path).read_text(encoding="utf-8"))
+        assert re.search(r"holds\s*79 true, 3 open, 0 false", page.text)
+
     def test_counts_verdicts(self, page):
         assert re.search(r"Of 2 claims.*1✓ holds0◐ holds partly1✗ does not hold0\? undecided", page.text, re.S)
 
@@ -119,7 +124,7 @@ class TestPage:
             assert told in page.text
 
     def test_says_how_verdicts_were_reached(self, page):
-        assert "All true: the claim holds." in page.text
+        assert "None false: the claim holds." in page.text
 
     def test_warns_of_a_quick_run_alone(self, page, tmp_path):
         assert "quick run" not in page.text
@@ -136,7 +141,9 @@ class TestPage:
         nothing = Reproduction("other <paper>", True, 10, 1, [], [])
         page = Page(write_report(nothing, tmp_path).read_text(encoding="utf-8"))
         assert "other <paper>" in page.text
-        assert (tmp_path / "claims.csv").read_text() == "id,statement,measured,value,low,high,unit,verdict,figure\n"
+        assert (
+            tmp_path / "claims.csv"
+        ).read_text() == "id,statement,measured,value,low,high,unit,verdict,figure,true,open,false\n"
         assert (tmp_path / "command.txt").read_text().startswith("shoal reproduce 'other <paper>'\n")
 
     def test_a_picture_too_big_as_svg_is_inlined_as_png(self, tmp_path, monkeypatch):

@@ -59,7 +59,8 @@ def _print_claims(found: "Reproduction") -> None:
     for title in ("", "verdict", "claim, and what was measured"):
         table.add_column(title)
     for claim in found.claims:
-        table.add_row(claim.id, claim.verdict, Text(claim.statement).append(f"\n{claim.measured}", style="dim"))
+        verdict = Text(claim.verdict).append(f"\n{claim.cases.replace(', ', chr(10))}", style="dim")
+        table.add_row(claim.id, verdict, Text(claim.statement).append(f"\n{claim.measured}", style="dim"))
     console.print(table)
     length = f"{found.seeds} seeds of {found.steps:,} steps"
     console.print(f"{found.paper}, {length}; in brackets 95 % intervals; {found.seconds:.0f} s", style="dim")

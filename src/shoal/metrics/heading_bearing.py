@@ -1,6 +1,7 @@
 """Heading-bearing correlation phi: who moves toward the target (+1), away from it (-1), or not at all (0)."""
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -50,7 +51,7 @@ def is_stationary(vx, vy, max_speed):
     return vx * vx + vy * vy < limit * limit
 
 
-def which_stationary(vx, vy, max_speed):
+def which_stationary(vx: Any, vy: Any, max_speed: Any) -> Any:
     """The same of arrays that broadcast, such as the velocities (K, N) of frames and the top speeds (N,) [m/s]."""
     return getattr(is_stationary, "py_func", is_stationary)(vx, vy, max_speed)
 

@@ -113,12 +113,13 @@ def heading_nowhere(row: Row) -> float:
     return float(row["phi_histogram"][len(CENTERS) // 2])
 
 
-def cells(rows: Iterable[Row], metric: str) -> list[Floats]:
+def cells(rows: Iterable[Row], metric: Metric) -> list[Floats]:
     """The values in all seeds of each combination of fast, neighbors and target_speed that has two or more."""
     found: dict[tuple[object, ...], list[float]] = {}
     for row in rows:
         if row.get("status", "done") == "done":
-            found.setdefault((row["fast"], row["neighbors"], row["target_speed"]), []).append(row[metric])
+            value = row[metric] if isinstance(metric, str) else metric(row)
+            found.setdefault((row["fast"], row["neighbors"], row["target_speed"]), []).append(value)
     return [np.array(values) for values in found.values() if len(values) > 1]
 
 
@@ -136,15 +137,21 @@ def intervals(cases: Sequence[Floats]) -> list[Interval]:
     the truth in 94 % of cases, but k = 2, noisier than the rest, in as few as 50 %.
     """
     found = []
-    for values in cases:
-        alike = [other for other in cases if len(other) == len(values)]
-        if not 2 <= len(values) < FEW or len(alike) == 1:
+    for values, degrees in zip(cases, degrees_of_freedom(cases), strict=True):
+        if degrees == len(values) - 1 or len(values) < 2:
             found.append(_interval(values))
             continue
+        alike = [other for other in cases if len(other) == len(values)]
         spread = math.sqrt(float(np.mean([np.var(other, ddof=1) for other in alike])))
-        half = t_quantile(len(alike) * (len(values) - 1)) * spread / math.sqrt(len(values))
+        half = t_quantile(degrees) * spread / math.sqrt(len(values))
         found.append(Interval(float(values.mean()), float(values.mean()) - half, float(values.mean()) + half))
     return found
+
+
+def degrees_of_freedom(cases: Sequence[Floats]) -> list[int]:
+    """Of the t in each of the `intervals`."""
+    sizes = [len(values) for values in cases]
+    return [(sizes.count(size) if 2 <= size < FEW else 1) * (size - 1) for size in sizes]
 
 
 def slopes(of: Curve) -> Floats:

@@ -39,7 +39,7 @@ def _claim_row(claim: Claim, titles: Mapping[str, str]) -> str:
         f"<td>{escape(claim.id)}</td>",
         f'<td data-label="Paper: ">{tidy(claim.statement)}</td>',
         f'<td data-label="Runs: ">{tidy(claim.measured)}<span class="key">{key_number(claim)}</span></td>',
-        f"<td>{badge(claim.verdict)}</td>",
+        f'<td>{badge(claim.verdict)}<span class="key">{escape(claim.cases)}</span></td>',
         f'<td data-label="Figure: ">{_figure_link(claim.figure, titles)}</td>',
     )
     return f'<tr id="claim-{escape(claim.id)}">{"".join(cells)}</tr>\n'

@@ -1,7 +1,6 @@
 """What the report says in full sentences."""
 
 from shoal.paper import cases
-from shoal.paper.claims import ABOUT
 from shoal.paper.curves import FEW
 from shoal.paper.published import BARS
 
@@ -58,7 +57,8 @@ METHOD = {
         _RULE,
         "The key number of a claim is that of the case that speaks most against it.",
         "Where the paper reads a k off a plot (\u201cabout 18\u201d), "
-        f"{ABOUT:g} to either side are allowed. Nothing was tuned to make a claim pass.",
+        f"{cases.ABOUT:g} to either side are allowed, and half a k for its last digit. Nothing was tuned to make a "
+        "claim pass.",
     ),
     "aamas2020": (
         _SEEDS,

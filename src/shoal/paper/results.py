@@ -12,7 +12,7 @@ class Claim:
     """One claim of a paper and what the numbers say of it.
 
     `measured` is a sentence with the numbers; `value`, `low`, `high` are the key number and its 95 % interval [unit].
-    `figure` is the file name (without suffix) of the figure it is read from.
+    `figure` is the file name (without suffix) of the figure it is read from. `true`, `open`, `false` count its cases.
     """
 
     id: str
@@ -24,6 +24,14 @@ class Claim:
     unit: str
     verdict: Verdict
     figure: str
+    true: int = 0
+    open: int = 0
+    false: int = 0
+
+    @property
+    def cases(self) -> str:
+        """How many of its cases are true, open and false, in words; empty if none was counted."""
+        return f"{self.true} true, {self.open} open, {self.false} false" if self.true + self.open + self.false else ""
 
 
 @dataclass
