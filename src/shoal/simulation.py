@@ -7,11 +7,11 @@ from zipfile import BadZipFile
 import numpy as np
 
 from shoal.build import build_radio, build_swarm, build_targets, build_world, losses_of, open_tracks
+from shoal.compiler.phase import put
 from shoal.compiling import entry_points
 from shoal.core.agents import NEVER, Minds, as_records
 from shoal.core.errors import RecordError, ScenarioError, StrategyError
 from shoal.core.files import whole_file
-from shoal.core.phase import put
 from shoal.engine.phases import PHASES, Addresses
 from shoal.engine.rollout import set_out
 from shoal.engine.stage import Frames, Stage, new_scratch

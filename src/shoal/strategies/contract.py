@@ -16,8 +16,8 @@ from typing import Any
 
 from numba.extending import overload
 
+from shoal.compiler.kernel import kernel
 from shoal.core.errors import StrategyError
-from shoal.core.kernel import kernel
 
 
 @dataclass(frozen=True)
