@@ -3,7 +3,7 @@
 import numpy as np
 
 from scenarios import fleets, scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 
 def coasting(places, velocities, targets=((0.0, 0.0),), makes=None, radius=1.0, **changes):

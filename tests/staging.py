@@ -4,7 +4,7 @@ import numpy as np
 
 import replay
 from scenarios import fleets, scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 ENDLESS = 1e9  # a top speed that limits nobody [m/s]
 NOWHERE = (1e6, 1e6)  # a target that nobody finds

@@ -3,7 +3,7 @@
 import numpy as np
 
 from scenarios import fleets, scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 FAR = [(-9.0, -9.0), (9.0, 9.0)]
 

@@ -10,9 +10,9 @@ from random_scenarios import STEPS, STRATEGIES, TEAMS, broken_table, valid_table
 from shoal.cli.main import BAD_INPUT, run_command
 from shoal.core.errors import ShoalError
 from shoal.metrics.summary import METRICS
-from shoal.scenario.facts import facts_of
+from shoal.run.facts import facts_of
+from shoal.run.simulation import Simulation
 from shoal.scenario.load import load, scenario_from, to_toml
-from shoal.simulation import Simulation
 
 CREWS = [*([name] for name in STRATEGIES), *TEAMS]
 VALID = -(-2000 // len(CREWS))  # of each crew

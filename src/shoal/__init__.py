@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from shoal.experiments.results import load_results
     from shoal.record.files import open_record, save_record
     from shoal.record.record import Record
-    from shoal.runs import simulate
+    from shoal.run.simulate import simulate
+    from shoal.run.simulation import Simulation
     from shoal.scenario.load import load, presets, to_toml
     from shoal.scenario.schema import Scenario
-    from shoal.simulation import Simulation
     from shoal.strategies import strategy
 
 _HOMES = {
@@ -35,8 +35,8 @@ _HOMES = {
     "shoal.record.record": ("Record",),
     "shoal.scenario.load": ("load", "presets", "to_toml"),
     "shoal.scenario.schema": ("Scenario",),
-    "shoal.runs": ("simulate",),
-    "shoal.simulation": ("Simulation",),
+    "shoal.run.simulate": ("simulate",),
+    "shoal.run.simulation": ("Simulation",),
     "shoal.strategies": ("strategy",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

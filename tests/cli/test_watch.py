@@ -16,7 +16,7 @@ import pytest
 from scenarios import scenario
 from shoal.cli.main import run_command
 from shoal.record.files import open_record
-from shoal.runs import simulate
+from shoal.run.simulate import simulate
 
 SOON = 120.0  # [s] a busy machine may take that long, and may compile
 

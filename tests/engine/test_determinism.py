@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scenarios import fleets, scenario, small
-from shoal.runs import simulate
-from shoal.simulation import Simulation
+from shoal.run.simulate import simulate
+from shoal.run.simulation import Simulation
 
 STEPS = 120
 SIZES = {2: 1, 3: 2, 64: 20, 65: 64, 500: 7}  # agents: neighbors

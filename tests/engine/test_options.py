@@ -3,7 +3,7 @@
 import pytest
 
 from scenarios import scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 STEPS = 200
 FLEETS = ("fleets.0", "fleets.1")

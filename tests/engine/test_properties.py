@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from scenarios import fleets, scenario, small
 from shoal.core.units import Unit
 from shoal.metrics.summary import METRICS, evaluate
-from shoal.scenario.facts import facts_of
+from shoal.run.facts import facts_of
+from shoal.run.simulation import Simulation
 from shoal.scenario.load import scenario_from
-from shoal.simulation import Simulation
 from shoal.strategies import CATALOGUE
 
 ORDERS = ["synchronous", "sequential"]

@@ -7,7 +7,7 @@ import pytest
 
 from coasting import coasting
 from shoal.metrics.summary import evaluate
-from shoal.scenario.facts import facts_of
+from shoal.run.facts import facts_of
 
 STAY = [(0, 0), (0, 0), (0, 0)]
 

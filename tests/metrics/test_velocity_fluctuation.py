@@ -10,7 +10,7 @@ from hypothesis.extra import numpy as npst
 
 from coasting import coasting
 from shoal.metrics.summary import evaluate, fleet_fluctuation
-from shoal.scenario.facts import facts_of
+from shoal.run.facts import facts_of
 
 RING = [(5 * math.cos(a), 5 * math.sin(a)) for a in np.arange(8) * math.pi / 4]
 

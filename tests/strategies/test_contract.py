@@ -9,9 +9,9 @@ import pytest
 from scenarios import scenario
 from shoal.core.errors import ScenarioError, StrategyError
 from shoal.metrics.summary import evaluate
-from shoal.scenario.facts import facts_of
+from shoal.run.facts import facts_of
+from shoal.run.simulation import Simulation
 from shoal.scenario.load import load, scenario_from, to_toml
-from shoal.simulation import Simulation
 from shoal.strategies import CATALOGUE, strategy
 
 STEPS = 300

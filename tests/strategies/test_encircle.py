@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from scenarios import scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 from shoal.strategies import CATALOGUE
 from staging import DT, NOWHERE, places, put, staged, wanted
 

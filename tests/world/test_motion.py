@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from scenarios import scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 OPEN = {
     "area.width": 1e3, "area.height": 1e3, "fleets.0.start": "center", "fleets.1.start": "center",  # far from walls

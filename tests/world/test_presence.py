@@ -5,7 +5,7 @@ import pytest
 
 from scenarios import fleets, scenario, small
 from shoal.core.errors import ScenarioError
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 ORDERS = ["synchronous", "sequential"]
 WAVES = {

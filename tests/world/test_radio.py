@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from scenarios import fleets, scenario
 from shoal.core.agents import NEVER, new_swarm
 from shoal.core.draws import split
+from shoal.run.simulation import Simulation
 from shoal.scenario.load import read_table, scenario_from
-from shoal.simulation import Simulation
 from shoal.world.neighbors import link_nearest, measure_distances, new_links, settle_ties
 from shoal.world.radio import begin_degree, limit_links, lose_reports, new_radio, said, send
 

@@ -5,7 +5,7 @@ import pytest
 
 from coasting import coasting
 from scenarios import fleets, scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 STAY = [(0.0, 0.0)] * 3
 PLACES = [(0.0, 0.0), (9.0, 9.0), (9.0, -9.0)]

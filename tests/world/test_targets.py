@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 import replay
 from scenarios import scenario
 from shoal.core.agents import new_swarm
+from shoal.run.simulation import Simulation
 from shoal.scenario.tracks import position_at
-from shoal.simulation import Simulation
 from shoal.world.targets import KINDS, TARGET, Tracks, advance_target
 
 NO_DRAW = np.uint64(0)

@@ -33,9 +33,9 @@ def replay(
     from shoal.core.errors import ScenarioError
     from shoal.core.files import write_whole
     from shoal.record.files import open_record
-    from shoal.runs import simulate
+    from shoal.run.simulate import simulate
     from shoal.scenario.load import load
-    from shoal.view.replay import replay_page
+    from shoal.viewer.replay import replay_page
 
     if frames < 1:
         raise ScenarioError("--frames", f"is {frames}", "ask for 1 or more")

@@ -74,7 +74,7 @@ def run(
         Print one JSON object and nothing else.
     """
     load_compiler()
-    from shoal.runs import simulate
+    from shoal.run.simulate import simulate
     from shoal.scenario.load import read_table, scenario_from
 
     changes: dict[str, Any] = {
@@ -87,7 +87,7 @@ def run(
         "seed": seed,
     }
     if figure:
-        from shoal.viz.files import figure_format
+        from shoal.drawing.files import figure_format
 
         figure_format(figure)  # refused before the run, not after
     table = edited_table(scenario, changes, assignments or [], target_track, track_id)

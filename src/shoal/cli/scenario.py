@@ -27,7 +27,7 @@ def check(file: str, /) -> None:
     file
         A TOML file or a preset's name.
     """
-    from shoal.build import open_tracks
+    from shoal.run.build import open_tracks
     from shoal.scenario.load import load
 
     loaded = load(file)

@@ -13,7 +13,7 @@ from shoal.cli.startup import load_compiler
 from shoal.cli.whole import MaybeWhole, Whole
 
 if TYPE_CHECKING:
-    from shoal.view.session import Session
+    from shoal.viewer.session import Session
 
 
 def watch(
@@ -112,12 +112,12 @@ def _watch(
     browser: bool,
     out: Path | None,
 ) -> None:
-    from shoal.compiling import needs_compiling
     from shoal.record.files import RecordFolder
+    from shoal.run.compiling import needs_compiling
     from shoal.scenario.load import scenario_from
-    from shoal.view.server import live_app, serving
-    from shoal.view.session import Session
-    from shoal.view.worker import Worker
+    from shoal.viewer.server import live_app, serving
+    from shoal.viewer.session import Session
+    from shoal.viewer.worker import Worker
 
     scenarios = [scenario_from(table, where=name) for table, name in zip(tables, names, strict=False)]
     if any(needs_compiling(each) for each in scenarios):
@@ -148,7 +148,7 @@ def _watch(
 
 def _record(session: "Session", out: Path) -> None:
     """Save what was watched: the same steps of the same scenario and seed again, which are the same bits."""
-    from shoal.runs import simulate
+    from shoal.run.simulate import simulate
     from shoal.scenario.schema import Scenario
 
     whole = session.runs[0].simulation.scenario
@@ -162,8 +162,8 @@ def _play_record(folder: str, host: str, port: int, browser: bool) -> None:
     from threading import Event
 
     from shoal.record.files import open_record
-    from shoal.view.replay import replay_page
-    from shoal.view.server import page_app, serving
+    from shoal.viewer.replay import replay_page
+    from shoal.viewer.server import page_app, serving
 
     page = replay_page(open_record(folder))
     with suppress(KeyboardInterrupt), serving(page_app(page), host, port) as address:
@@ -182,7 +182,7 @@ def _other(table: dict[str, Any], against: str) -> dict[str, Any]:
 
 
 def _announce(address: str, host: str, browser: bool) -> None:
-    from shoal.view.address import is_local
+    from shoal.viewer.address import is_local
 
     note(f"watch at {address} (Ctrl-C ends)")
     if not is_local(host):

@@ -11,10 +11,10 @@ import tomli_w
 from pydantic import ValidationError
 
 from shoal.core.errors import ScenarioError, did_you_mean
-from shoal.scenario.plugins import find_strategy, load_strategies
 from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Join, Loss, Motion, Network, Scenario
 from shoal.scenario.strategy_choice import StrategyParamsError, params_model
 from shoal.scenario.targets import TARGETS
+from shoal.strategies.plugins import find_strategy, load_strategies
 
 
 def presets() -> list[str]:

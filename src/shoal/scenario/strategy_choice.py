@@ -9,9 +9,9 @@ from pydantic import ValidationError as PydanticError
 from pydantic_core import PydanticCustomError, core_schema
 
 from shoal.core.units import Choice, Says, Unit
-from shoal.scenario.installed import installed_names, load_all_installed
-from shoal.scenario.plugins import find_strategy, source_of
 from shoal.strategies import CATALOGUE, Strategy
+from shoal.strategies.installed import installed_names, load_all_installed
+from shoal.strategies.plugins import find_strategy, source_of
 
 
 class StrategyChoice:

@@ -74,7 +74,7 @@ def compare(
 
     need_scipy()
     if figure:
-        from shoal.viz.files import figure_format
+        from shoal.drawing.files import figure_format
 
         figure_format(figure)  # refused before the runs, not after
     check_positive(runs=runs, steps=steps, jobs=jobs)

@@ -59,7 +59,7 @@ def compare_strategies(
     table = {_told(point): (point, values_of(strategies, metric)) for point, strategies in found}
     comparison = compare(table, baseline, {each.name for each in everybody if each.informed}, direction)
     if figure:
-        from shoal.viz.files import save_figure
+        from shoal.drawing.files import save_figure
 
         save_figure(comparison_figure(comparison, metric), figure)
         note(f"figure: {figure}")

@@ -55,7 +55,7 @@ def compare_suite(
         write_page(board, markdown, named)
         note(f"page: {markdown}")
     if figure:
-        from shoal.viz.files import save_figure
+        from shoal.drawing.files import save_figure
 
         save_figure(leaderboard_figure(board), figure)
         note(f"figure: {figure}")

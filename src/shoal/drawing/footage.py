@@ -1,0 +1,86 @@
+"""Footage: frames of a run made to be looked at, and the present moment of a simulation."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.core.errors import ScenarioError
+from shoal.record.record import Record
+from shoal.record.trajectory import Trajectory
+from shoal.run.facts import facts_of
+from shoal.run.simulate import chunk_steps
+from shoal.run.simulation import Simulation
+from shoal.scenario.schema import Scenario
+
+Progress = Callable[[int, int], None]
+
+
+def footage(
+    scenario: Scenario, steps: int, *, start: int = 0, every: int = 1, run: int = 0, progress: Progress | None = None
+) -> Record:
+    """Run a scenario to step start + steps, and return the record with every `every`-th frame from `start` on.
+
+    Raises
+    ------
+    ScenarioError : the scenario has fewer steps
+    """
+    end = start + steps
+    if end > scenario.steps:
+        raise ScenarioError(
+            f"steps {start} to {end - 1}",
+            f"are more than the {scenario.steps} of scenario {scenario.name}",
+            "ask for fewer, or raise its `steps`",
+        )
+    simulation = Simulation(scenario, run)
+    parts = []
+    while simulation.number < end:
+        goal = start if simulation.number < start else end
+        chunk = min(chunk_steps(scenario.agents), goal - simulation.number)
+        part = simulation.advance(chunk, every=every if goal == end else None)
+        parts += [part] if part else []
+        if progress:
+            progress(simulation.number, end)
+    return _record(scenario, simulation, Trajectory.join(parts))
+
+
+def present(simulation: Simulation) -> Record:
+    """Return a record of one frame, the state that a simulation is in; the simulation stays as it is.
+
+    Who is on target is decided in the step to come, so that a copy goes on by that step.
+    """
+    number = simulation.number
+    scenario = simulation.scenario.model_copy(update={"steps": max(simulation.scenario.steps, number + 1)})
+    ahead = Simulation(scenario, simulation.run)
+    now, copy = simulation.state(), ahead.state()
+    for name in copy:
+        if name.startswith(("swarm.", "radio.")) or name == "targets":
+            copy[name][...] = now[name]
+    ahead.number = number
+    frame = ahead.advance(1, every=1)
+    assert frame is not None  # one was asked for
+    return _record(simulation.scenario, simulation, frame)
+
+
+def _record(scenario: Scenario, simulation: Simulation, frames: Trajectory) -> Record:
+    content: dict[str, Any] = scenario.model_dump(mode="json")
+    return Record(content, facts_of(scenario), (simulation.tally,), {"seed": scenario.seed}, {simulation.run: frames})
+
+
+def watching(record: Record, run: int) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.bool_]]:
+    """How many agents are on a target that is there, and whether one is, at every frame: (K,), (K,).
+
+    An agent that reports a target out of its sensor's reach, a false alarm, is not on target.
+    """
+    frames, scenario = record.trajectories[run], record.scenario
+    sensors = np.repeat([fleet["sensor_radius"] for fleet in scenario["fleets"]], record.facts.counts)
+    near = np.zeros(frames.on_target.shape, bool)
+    for number, target in enumerate(scenario["targets"]):
+        dx = frames.x - frames.target_x[:, number, None]
+        dy = frames.y - frames.target_y[:, number, None]
+        there = np.asarray(frames.target_present[:, number])
+        near |= (dx * dx + dy * dy <= (sensors + target["radius"]) ** 2) & there[:, None]
+    engaged: npt.NDArray[np.int64] = (near & frames.on_target & frames.alive).sum(axis=1)
+    present: npt.NDArray[np.bool_] = np.any(frames.target_present, axis=1)
+    return engaged, present
