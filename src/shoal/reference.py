@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 Array = Any  # (N,) or (N, 2), a row for each agent; or for the agents i that decide together
-length = partial(np.linalg.norm, axis=-1)  # of vectors
+length: Any = partial(np.linalg.norm, axis=-1)  # of vectors
 
 
 class Swarm(NamedTuple):
