@@ -1,4 +1,4 @@
-"""One time-step: sense, listen, decide, move, measure. Algorithm 2 of the paper."""
+"""One time-step: sense, listen, decide, move, measure. Algorithm 2 of the paper, which reference.py has to read."""
 
 from shoal.compiler.kernel import kernel
 from shoal.compiler.phase import enter
