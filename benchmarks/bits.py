@@ -25,9 +25,34 @@ PIECES = (1, 7, 700, STEPS - 708)  # a run is cut into calls, which moves nothin
 EVERY, TAIL = 25, STEPS - 100  # frames
 RUN = 3
 
-AGENT_STATE = "x y vx vy command_x command_y joins leaves neighbors contact told memory".split()
-RADIO_STATE = "x y vx vy on_target told".split()
-TARGET_STATE = "present x y lost heading_x heading_y dive_phase waypoint_x waypoint_y waypoint_age leg".split()
+AGENT_STATE = [
+    "x",
+    "y",
+    "vx",
+    "vy",
+    "command_x",
+    "command_y",
+    "joins",
+    "leaves",
+    "neighbors",
+    "contact",
+    "told",
+    "memory",
+]
+RADIO_STATE = ["x", "y", "vx", "vy", "on_target", "told"]
+TARGET_STATE = [
+    "present",
+    "x",
+    "y",
+    "lost",
+    "heading_x",
+    "heading_y",
+    "dive_phase",
+    "waypoint_x",
+    "waypoint_y",
+    "waypoint_age",
+    "leg",
+]
 # attributes of a Simulation, of which the first counts that has the name
 HOMES = {"agent": ("swarm",), "radio": ("radio",), "target": ("targets",)}
 

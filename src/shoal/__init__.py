@@ -12,9 +12,9 @@ from shoal.version import VERSION as __version__  # noqa: N811 (the name every p
 
 if TYPE_CHECKING:
     from shoal import plot
+    from shoal.compiler.kernel import kernel
     from shoal.core.draws import normal, uniform
     from shoal.core.errors import ShoalError
-    from shoal.core.kernel import kernel
     from shoal.core.units import Degrees, Meters, MetersPerSecond, Seconds
     from shoal.experiments.results import load_results
     from shoal.record.files import open_record, save_record
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "shoal.core.draws": ("normal", "uniform"),
     "shoal.core.errors": ("ShoalError",),
-    "shoal.core.kernel": ("kernel",),
+    "shoal.compiler.kernel": ("kernel",),
     "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Seconds"),
     "shoal.experiments.results": ("load_results",),
     "shoal.record.files": ("open_record", "save_record"),

@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 _FIRST = np.uint64(0xBF58476D1CE4E5B9)

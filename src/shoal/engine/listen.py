@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 from shoal.core.messages import Briefing, Own, Report, Truth
 from shoal.strategies import contract
 

@@ -1,6 +1,6 @@
 """When each metric is counted within a step."""
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 from shoal.metrics.contacts import tally_contacts
 from shoal.metrics.coverage import tally_coverage
 from shoal.metrics.effort import tally_effort

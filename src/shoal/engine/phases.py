@@ -1,12 +1,12 @@
-"""The parts of a step that know no strategy, each compiled once for all of them (see core/phase.py).
+"""The parts of a step that know no strategy, each compiled once for all of them (see compiler/phase.py).
 
 Every phase takes where the stage is, two integers and a key, and returns an integer.
 """
 
 from typing import Any, NamedTuple
 
+from shoal.compiler.phase import part, phase
 from shoal.core.draws import TARGET_STREAM, split
-from shoal.core.phase import part, phase
 from shoal.engine.frames import keep_frame
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
 from shoal.engine.stage import FRAMES, RADIO, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD

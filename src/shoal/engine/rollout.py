@@ -1,8 +1,8 @@
 """Many steps of one run in one compiled call; the functions that Python calls."""
 
+from shoal.compiler.kernel import entry_kernel
+from shoal.compiler.phase import enter, part
 from shoal.core.draws import START_STEP, TARGET_STREAM, split
-from shoal.core.kernel import entry_kernel
-from shoal.core.phase import enter, part
 from shoal.engine.self import own
 from shoal.engine.stage import FRAMES, RADIO, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD
 from shoal.engine.step import step, tell

@@ -1,9 +1,9 @@
-"""One time-step: sense, listen, decide, move, measure. Algorithm 2 of the paper."""
+"""One time-step: sense, listen, decide, move, measure. Algorithm 2 of the paper, which reference.py has to read."""
 
+from shoal.compiler.kernel import kernel
+from shoal.compiler.phase import enter
 from shoal.core.draws import split
-from shoal.core.kernel import kernel
 from shoal.core.messages import Heard
-from shoal.core.phase import enter
 from shoal.engine.listen import choose_leaders, sum_influence
 from shoal.engine.self import own
 from shoal.strategies import contract

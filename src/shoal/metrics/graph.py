@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 
 EVERY = 500  # steps between two looks at the graph
 

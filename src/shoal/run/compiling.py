@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from shoal.core.kernel import cache_folder, uncached
+from shoal.compiler.kernel import cache_folder, uncached
 from shoal.engine.rollout import begin_run, rollout
 from shoal.run.crew import Crew, crew_of
 from shoal.scenario.schema import Scenario

@@ -6,10 +6,10 @@ from zipfile import BadZipFile
 
 import numpy as np
 
+from shoal.compiler.phase import put
 from shoal.core.agents import NEVER, Minds, as_records
 from shoal.core.errors import RecordError, ScenarioError, StrategyError
 from shoal.core.files import whole_file
-from shoal.core.phase import put
 from shoal.engine.phases import PHASES, Addresses
 from shoal.engine.rollout import set_out
 from shoal.engine.stage import Frames, Stage, new_scratch

@@ -19,8 +19,8 @@ from typing import Any
 from numba.core.errors import TypingError
 from numba.extending import overload
 
+from shoal.compiler.kernel import kernel
 from shoal.core.errors import StrategyError
-from shoal.core.kernel import kernel
 from shoal.core.messages import Heard
 from shoal.strategies.rank import asks_for_rank
 

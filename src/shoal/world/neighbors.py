@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from shoal.compiler.kernel import kernel
 from shoal.core.agents import aligned_zeros
-from shoal.core.kernel import kernel
 
 ROUNDS = 40
 _BELOW = 1.0 - 2.0**-52

@@ -1,7 +1,7 @@
 """Where agents start, at rest."""
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import START_STEP, split, uniform
-from shoal.core.kernel import kernel
 
 PLACES = ("uniform", "center", "corner", "arena")
 _CENTER = 1

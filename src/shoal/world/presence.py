@@ -2,8 +2,8 @@
 
 import math
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import START_STEP, split, uniform
-from shoal.core.kernel import kernel
 
 _WEAR = 1 << 22  # purposes that no strategy draws for
 _LOT = _WEAR + 1

@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from shoal.compiler.kernel import kernel
 from shoal.core.agents import Floats, width
 from shoal.core.draws import split, uniform
-from shoal.core.kernel import kernel
 
 _LOSS = 1 << 33  # a stream of keys that neither agents nor targets draw from
 

@@ -1,7 +1,7 @@
 """Who detects a target: the paper's disc (Eq. 1), with chances to miss it and to see what is not there."""
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import split, uniform
-from shoal.core.kernel import kernel
 
 _DETECTION = 1 << 21  # purposes that no strategy draws for
 _FALSE_ALARM = _DETECTION + 1

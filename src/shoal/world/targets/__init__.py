@@ -1,7 +1,7 @@
 """How targets move: one file per kind. A new kind is a file, a number in record.py and a line in each function here."""
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import uniform
-from shoal.core.kernel import kernel
 from shoal.world.targets.dive import surface_or_dive
 from shoal.world.targets.drift import drift
 from shoal.world.targets.evasive import flee

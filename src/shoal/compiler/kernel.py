@@ -25,7 +25,7 @@ warnings.filterwarnings("ignore", message="Record", category=NumbaExperimentalFe
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 _config: Any = numba_config  # its settings come from the environment at run time
-_COMPILED_FOLDERS = ("core", "world", "strategies", "metrics", "engine")
+_COMPILED_FOLDERS = ("compiler", "core", "world", "strategies", "metrics", "engine")
 
 
 def kernel(function: Function) -> Function:
