@@ -8,7 +8,7 @@ import numpy as np
 
 from shoal.core.agents import Swarm, new_swarm
 from shoal.core.errors import ScenarioError
-from shoal.run.crew import Crew
+from shoal.scenario.crew import Crew
 from shoal.scenario.schema import Scenario
 from shoal.scenario.targets import (
     DriftTarget,

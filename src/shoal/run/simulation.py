@@ -17,9 +17,9 @@ from shoal.metrics.tally import new_tally
 from shoal.record.trajectory import Trajectory
 from shoal.run.build import build_radio, build_swarm, build_targets, build_world, losses_of, open_tracks
 from shoal.run.compiling import entry_points
-from shoal.run.crew import crew_of
-from shoal.run.strategy_errors import strategy_errors
+from shoal.scenario.crew import crew_of
 from shoal.scenario.schema import Scenario
+from shoal.scenario.strategy_errors import strategy_errors
 from shoal.version import RESULTS_VERSION
 from shoal.world.placement import PLACES
 

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from numba.core.errors import NumbaError
 
 from shoal.core.errors import StrategyError
-from shoal.run.crew import Crew
+from shoal.scenario.crew import Crew
 from shoal.strategies.plugins import line_in
 
 _TELLS = "rror|nknown|not defined|resolve|nvalid|No implementation"
