@@ -23,7 +23,8 @@ from numba import cfunc, typeof, types
 from numba.core import cgutils
 from numba.extending import intrinsic, overload
 
-from shoal.compiler.kernel import FLAGS, compiles, entry_kernel, kernel_cache
+from shoal.compiler.inner import FLAGS
+from shoal.compiler.kernel import compiles, entry_kernel, kernel_cache
 
 _ROOM = 1 << 15  # bytes for a stage, of which some 6,000 are used
 _STAGE: list[Any] = []  # numba's type of the stage, once there is one

@@ -4,8 +4,7 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from numba.core.errors import NumbaError
-
+from shoal.compiler.kernel import NumbaError
 from shoal.core.errors import StrategyError
 from shoal.scenario.crew import Crew
 from shoal.strategies.plugins import line_in

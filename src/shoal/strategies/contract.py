@@ -16,10 +16,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from numba.core.errors import TypingError
-from numba.extending import overload
-
-from shoal.compiler.kernel import kernel
+from shoal.compiler.kernel import TypingError, kernel, overload
 from shoal.core.errors import StrategyError
 from shoal.core.messages import Heard
 from shoal.strategies.rank import asks_for_rank
