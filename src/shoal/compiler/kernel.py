@@ -41,7 +41,7 @@ except ModuleNotFoundError as missing:
     TypingError = NumbaError  # type: ignore[misc, assignment]
 
 _config: Any = config  # its settings come from the environment at run time
-_COMPILED_FOLDERS = ("compiler", "core", "world", "strategies", "metrics", "engine")
+_COMPILED_FOLDERS = ("compiler", "core", "world", "strategies", "metrics", "engine", "buoy")
 
 
 def kernel(function: Function) -> Function:
@@ -73,6 +73,11 @@ def kernel_cache() -> Iterator[None]:
 def compiles() -> bool:
     """Whether kernels are compiled: not without numba, and not under NUMBA_DISABLE_JIT=1."""
     return numba is not None and not _config.DISABLE_JIT
+
+
+def plain(function: Function) -> Function:
+    """The function that a kernel is written as."""
+    return cast(Function, getattr(function, "py_func", function))
 
 
 def overload(function: Callable[..., Any], **options: Any) -> Callable[[Function], Function]:

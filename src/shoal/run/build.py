@@ -8,6 +8,7 @@ import numpy as np
 
 from shoal.core.agents import Swarm, new_swarm
 from shoal.core.errors import ScenarioError
+from shoal.scenario.briefing import degrees, shares
 from shoal.scenario.crew import Crew
 from shoal.scenario.schema import Scenario
 from shoal.scenario.targets import (
@@ -63,12 +64,8 @@ def build_swarm(scenario: Scenario, crew: Crew) -> Swarm:
     fill(swarm.false_alarm, [fleet.false_alarm_probability for fleet in fleets])
     fill(swarm.max_acceleration, [fleet.max_acceleration or math.inf for fleet in fleets])
     fill(swarm.max_turn_rate, [math.radians(fleet.max_turn_rate or math.inf) for fleet in fleets])
-    degrees = [
-        "all" if strategy.hears_all else fleet.neighbors or scenario.network.neighbors
-        for strategy, fleet in zip(crew.strategies, fleets, strict=True)
-    ]
-    fill(swarm.neighbors, [agents - 1 if degree == "all" else degree for degree in degrees])
-    swarm.share_end[:agents] = np.cumsum(swarm.max_speed[:agents]) / swarm.max_speed[:agents].sum()
+    fill(swarm.neighbors, degrees(scenario, crew))
+    swarm.share_end[:agents] = shares(scenario)
     nobody = swarm.fleet_end - [
         sum(join.count for join in scenario.joins if join.fleet == each.name) for each in fleets
     ]

@@ -13,33 +13,43 @@ def limit_speed(command_x, command_y, max_speed, divide):
     1 m/s buoy and slows the others.
     """
     for i in range(command_x.size):
-        limit = max_speed[i]
-        speed = math.sqrt(command_x[i] * command_x[i] + command_y[i] * command_y[i])
-        scale = 1.0 / limit if divide else limit / (speed if speed > limit else limit)
+        scale = speed_scale(command_x[i], command_y[i], max_speed[i], divide)
         command_x[i] *= scale
         command_y[i] *= scale
+
+
+@kernel
+def speed_scale(vx, vy, max_speed, divide):
+    """By what a wanted velocity is multiplied: 1 within the top speed [m/s], 1 / top speed with `divide`."""
+    speed = math.sqrt(vx * vx + vy * vy)
+    return 1.0 / max_speed if divide else max_speed / (speed if speed > max_speed else max_speed)
 
 
 @kernel
 def limit_maneuver(swarm, first, last, time_step):
     """Limit how far the wanted velocity of agents first..last turns in a step, then how much it changes, in place."""
     for i in range(first, last):
-        vx, vy = swarm.vx[i], swarm.vy[i]
-        wanted_x, wanted_y = swarm.command_x[i], swarm.command_y[i]
-        angle = math.atan2(vx * wanted_y - vy * wanted_x, vx * wanted_x + vy * wanted_y)
-        most = swarm.max_turn_rate[i] * time_step
-        if abs(angle) > most and vx * vx + vy * vy > 0.0:
-            heading = math.atan2(vy, vx) + (most if angle > 0.0 else -most)
-            speed = math.sqrt(wanted_x * wanted_x + wanted_y * wanted_y)
-            wanted_x = speed * math.cos(heading)
-            wanted_y = speed * math.sin(heading)
-        change_x = wanted_x - vx
-        change_y = wanted_y - vy
-        change = math.sqrt(change_x * change_x + change_y * change_y)
-        most = swarm.max_acceleration[i] * time_step
-        limited = change > most
-        swarm.command_x[i] = vx + most / change * change_x if limited else wanted_x
-        swarm.command_y[i] = vy + most / change * change_y if limited else wanted_y
+        turn, change = swarm.max_turn_rate[i] * time_step, swarm.max_acceleration[i] * time_step
+        swarm.command_x[i], swarm.command_y[i] = maneuvered(
+            swarm.vx[i], swarm.vy[i], swarm.command_x[i], swarm.command_y[i], turn, change
+        )
+
+
+@kernel
+def maneuvered(vx, vy, wanted_x, wanted_y, most_turn, most_change):
+    """The velocity wanted, turned from the present one by `most_turn` [rad] at most, changed by `most_change` [m/s]."""
+    angle = math.atan2(vx * wanted_y - vy * wanted_x, vx * wanted_x + vy * wanted_y)
+    if abs(angle) > most_turn and vx * vx + vy * vy > 0.0:
+        heading = math.atan2(vy, vx) + (most_turn if angle > 0.0 else -most_turn)
+        speed = math.sqrt(wanted_x * wanted_x + wanted_y * wanted_y)
+        wanted_x = speed * math.cos(heading)
+        wanted_y = speed * math.sin(heading)
+    change_x = wanted_x - vx
+    change_y = wanted_y - vy
+    change = math.sqrt(change_x * change_x + change_y * change_y)
+    if change > most_change:
+        return vx + most_change / change * change_x, vy + most_change / change * change_y
+    return wanted_x, wanted_y
 
 
 @kernel

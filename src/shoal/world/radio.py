@@ -139,10 +139,20 @@ def lose_reports(links, radio, step_key, first, agents):
 def begin_degree(swarm, radio, agents):
     """Let k start between fewest and most, with the contact that belongs to it."""
     for i in range(agents):
-        span = radio.most[i] - radio.fewest[i]
-        above = min(max(swarm.neighbors[i] - radio.fewest[i], 0), span)
-        swarm.neighbors[i] = radio.fewest[i] + above
-        swarm.contact[i] = above / span if span > 0 else 0.0
+        swarm.neighbors[i], swarm.contact[i] = first_degree(swarm.neighbors[i], radio.fewest[i], radio.most[i])
+
+
+@kernel
+def first_degree(k, fewest, most):
+    """k to start with, between two bounds, and the contact that belongs to it."""
+    above = min(max(k - fewest, 0), most - fewest)
+    return fewest + above, above / (most - fewest) if most > fewest else 0.0
+
+
+@kernel
+def degree_of(contact, fewest, most):
+    """k that belongs to a contact from 0 to 1."""
+    return int(fewest + (most - fewest) * contact + 0.5)
 
 
 @kernel
@@ -164,5 +174,4 @@ def adapt_degree(swarm, radio, links, reports, first, last, world):
     for i in range(first, last):
         if swarm.alive[i] > 0.0:
             swarm.contact[i] += weight * (contact[i - first] - swarm.contact[i])
-            degree = radio.fewest[i] + (radio.most[i] - radio.fewest[i]) * swarm.contact[i]
-            swarm.neighbors[i] = int(degree + 0.5)
+            swarm.neighbors[i] = degree_of(swarm.contact[i], radio.fewest[i], radio.most[i])
