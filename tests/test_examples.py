@@ -47,7 +47,10 @@ def test_the_example_of_named_sums_runs(name):
     assert order > 0.4 or name == "six_nearest"  # which is no flock
 
 
-@pytest.mark.parametrize(("page", "example"), [("own-strategy.md", "my_strategy.py"), ("figures.md", "figures.py")])
+@pytest.mark.parametrize(
+    ("page", "example"),
+    [("own-strategy.md", "my_strategy.py"), ("figures.md", "figures.py"), ("decide-on-a-buoy.md", "buoys.py")],
+)
 def test_the_page_quotes_the_example(page, example):
     text = (ROOT / "docs/how-to" / page).read_text(encoding="utf-8")
     assert (ROOT / "examples" / example).read_text(encoding="utf-8") in text

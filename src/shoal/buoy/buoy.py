@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from shoal.buoy.plain import NO_TRUTH, PlainMind
 from shoal.compiler.kernel import compiles, plain
-from shoal.core.errors import StrategyError
+from shoal.core.errors import MessageError, StrategyError
 from shoal.core.messages import Own, Reading, Report
 from shoal.scenario.briefing import briefing, degrees, fleet_of
 from shoal.scenario.crew import Crew, crew_of
@@ -92,10 +92,17 @@ class Buoy:
         ----------
         reading : what its instruments say at the start of the step
         step : number of the step, from 0
+
+        Raises
+        ------
+        MessageError : the reading holds a number that is not finite
         """
+        x, y, vx, vy, on_target = reading
+        if not all(map(math.isfinite, (x, y, vx, vy))):
+            problem = f"of agent {self.id} holds a number that is not finite, in step {step}"
+            raise MessageError("reading", problem, "say and decide nothing until the instrument is well")
         if not self._begun:
             self.begin(reading)
-        x, y, vx, vy, on_target = reading
         time = step * self._time_step
         return Report(self.id, float(x), float(y), float(vx), float(vy), bool(on_target), self._mind.told(), time)
 
@@ -113,6 +120,7 @@ class Buoy:
 
         Raises
         ------
+        MessageError : the reading holds a number that is not finite
         StrategyError : its strategy cannot be compiled, raises an error, or wants what is not finite
         """
         report = self.report(reading, step)
