@@ -41,7 +41,7 @@ except ModuleNotFoundError as missing:
     TypingError = NumbaError  # type: ignore[misc, assignment]
 
 _config: Any = config  # its settings come from the environment at run time
-_COMPILED_FOLDERS = ("compiler", "core", "world", "strategies", "metrics", "engine", "buoy")
+_COMPILED_FOLDERS = ("compiler", "core", "world", "strategies", "metrics", "engine")
 
 
 def kernel(function: Function) -> Function:
