@@ -10,7 +10,7 @@ from shoal.core.errors import MessageError, StrategyError
 from shoal.core.messages import Own, Reading, Report
 from shoal.scenario.briefing import briefing, degrees, fleet_of
 from shoal.scenario.crew import Crew, crew_of
-from shoal.scenario.schema import Scenario
+from shoal.scenario.load import Source, load
 from shoal.scenario.strategy_errors import strategy_errors
 from shoal.world.motion import maneuvered, speed_scale
 from shoal.world.radio import degree_of, first_degree
@@ -32,7 +32,7 @@ class Buoy:
 
     Parameters
     ----------
-    scenario : what the whole swarm is told, see shoal.load
+    scenario : what the whole swarm is told: a scenario, or what shoal.load makes one of
     id : which agent it is, 0 to N - 1 in the order of the fleets
     seed : decides all chance, with the run; default: the scenario's
     run : number of the replicate
@@ -49,7 +49,8 @@ class Buoy:
     StrategyError : its strategy is told where targets are, which no buoy can know
     """
 
-    def __init__(self, scenario: Scenario, id: int, *, seed: int | None = None, run: int = 0) -> None:
+    def __init__(self, scenario: Source, id: int, *, seed: int | None = None, run: int = 0) -> None:
+        scenario = load(scenario)
         crew = crew_of(scenario)
         self.id = id
         self.fleet = fleet_of(scenario, id)

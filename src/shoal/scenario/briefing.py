@@ -7,16 +7,18 @@ import numpy as np
 from shoal.core.errors import ScenarioError
 from shoal.core.messages import Briefing
 from shoal.scenario.crew import Crew
+from shoal.scenario.load import Source, load
 from shoal.scenario.schema import Scenario
 
 
-def briefing(scenario: Scenario, id: int) -> Briefing:
+def briefing(scenario: Source, id: int) -> Briefing:
     """Return what agent `id` (0 to N - 1) is told before it leaves: `me.briefing` of its strategy.
 
     Raises
     ------
     ScenarioError : there is no such agent
     """
+    scenario = load(scenario)
     fleet = scenario.fleets[fleet_of(scenario, id)]
     ends = shares(scenario)
     return Briefing(
