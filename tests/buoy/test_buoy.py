@@ -22,13 +22,34 @@ ROOT = Path(__file__).resolve().parents[2]
 SIGHTED = sorted(name for name, known in CATALOGUE.items() if known.builtin and not known.informed)
 STEPS = 1000
 IDS = (0, 14, 15, 49)  # the first and the last of both fleets
-SMOOTH = {"levy-walk", "random-walk", "a-cmommt", "sector-search"}  # where pow, log, sin, cos or atan2 enter
+SMOOTH = {
+    "levy-walk",
+    "random-walk",
+    "a-cmommt",
+    "sector-search",
+    "six-nearest",
+}  # where pow, log, sin, cos or atan2 enter
 
 
 @pytest.mark.parametrize("name", SIGHTED)
 def test_every_strategy_in_the_paper_s_run(name):
     chosen = scenario("oceans2020", {"strategy": name})
     assert differences(tape_of(chosen, STEPS), chosen, IDS) == []
+
+
+USERS = ROOT / "examples/strategies/six_nearest.py"  # ranks and named sums
+
+
+@pytest.fixture(scope="module")
+def of_a_user():
+    """A user's strategy and what the engine makes of it: compiled once, for half a minute."""
+    chosen = scenario("oceans2020", {"strategy": {"file": str(USERS)}})
+    return chosen, tape_of(chosen, 300)
+
+
+def test_a_user_s_strategy(of_a_user):
+    chosen, tape = of_a_user
+    assert differences(tape, chosen, IDS) == []
 
 
 RADIO = {"neighbors": 12, "range": 7.0, "loss": 0.2, "delay": 2}
@@ -83,14 +104,14 @@ for table, tape, ids, radio, apart in pickle.load(open(sys.argv[2], "rb")):
 """
 
 
-def test_without_numba_every_strategy_in_plain_python(tmp_path):
+def test_without_numba_every_strategy_in_plain_python(tmp_path, of_a_user):
     """To the bit, but for 1e-12 m/s where a function of the C library enters."""
-    chosen = [(scenario("oceans2020", {"strategy": name}), False) for name in SIGHTED]
-    chosen.append((scenario("oceans2020", {"fleets": TEAM, "network": RADIO}), True))
+    team = scenario("oceans2020", {"fleets": TEAM, "network": RADIO})
+    played = [(each, tape_of(each, 300)) for each in (scenario("oceans2020", {"strategy": name}) for name in SIGHTED)]
     tasks = []
-    for each, radio in chosen:
-        smooth = radio or each.strategy.name in SMOOTH  # a turn takes a sine
-        tasks.append((each.model_dump(mode="json"), tuple(tape_of(each, 300)), (0, 49), radio, 1e-12 * smooth))
+    for each, tape in [*played, (team, tape_of(team, 300)), of_a_user]:
+        smooth = each is team or each.strategy.name in SMOOTH  # a turn takes a sine
+        tasks.append((each.model_dump(mode="json"), tuple(tape), (0, 49), each is team, 1e-12 * smooth))
     (tmp_path / "tapes").write_bytes(pickle.dumps(tasks))
     done = subprocess.run(
         [sys.executable, "-c", PLAIN, ROOT / "tests", tmp_path / "tapes"], capture_output=True, text=True, check=False
