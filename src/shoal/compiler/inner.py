@@ -14,11 +14,22 @@ FLAGS: dict[str, Any] = {"error_model": "numpy", "nogil": True}
 INNER_FLAGS = {**FLAGS, "forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
+_typeof: Any = numba.typeof
+
+
 class Inner(CPUDispatcher):
-    """A kernel without wrappers; called from Python, it compiles a twin that has them."""
+    """A kernel without wrappers; called from Python, it compiles a twin that has them.
+
+    Objects that numba does not know, such as those that a test of a strategy makes up, are met in plain Python.
+    """
 
     def __call__(self, *arguments: Any) -> Any:
         """Run the twin."""
+        try:
+            for argument in arguments:
+                _typeof(argument)
+        except ValueError:
+            return self.py_func(*arguments)
         if not hasattr(self, "twin"):
             self.twin = numba.njit(self.py_func, **FLAGS)
         return self.twin(*arguments)

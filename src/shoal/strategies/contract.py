@@ -140,7 +140,7 @@ def strategy(
                 raise StrategyError(where, f"{role} takes {count} arguments", f"let it take {wanted}")
         if influence is None and tuple(sums) != _TWO_SUMS:
             raise StrategyError(where, "names sums, but nothing adds to them", "give influence=...")
-        if leads and asks_for_rank(leads):
+        if leads and "rank" not in fields and asks_for_rank(leads):
             problem = "leads asks for other.rank, but is asked once for all listeners"
             raise StrategyError(where, problem, "let priority return math.inf for whom this agent does not follow")
         remembered = dict(memory or {})
