@@ -56,7 +56,12 @@ class Own(NamedTuple):
 
 
 class Report(NamedTuple):
-    """What an agent tells its neighbors: the one message of the swarm. `told`: the memory fields its strategy tells."""
+    """What an agent tells its neighbors: the one message of the swarm.
+
+    told : the memory fields that its strategy tells
+    time : when it was said [s] since the start of the run
+    rank : 0 for the nearest of those that the listener hears, 1 for the next ...; the listener's finding, never sent
+    """
 
     id: int
     x: float
@@ -65,16 +70,19 @@ class Report(NamedTuple):
     vy: float
     on_target: bool
     told: Any
+    time: float = 0.0
+    rank: Any = None
 
 
 REPORT_BYTES = 4 + 4 * 8 + 1  # id, position and velocity, on target; each field of `told` adds 8
 
 
 class Heard(NamedTuple):
-    """What an agent made of its neighbors' reports: one leader and one sum.
+    """What an agent made of its neighbors' reports: one leader, and sums over all of them.
 
     `found` is whether any neighbor may lead; x, y, vx, vy, on_target, told are the leader's (the agent's own if none).
-    `sum_x`, `sum_y` are the sums of the strategy's influence over all neighbors; `neighbors` is how many were heard.
+    `sums` has what the strategy's influence adds up to over all neighbors, by the names that it declares; `sum_x`,
+    `sum_y` are the first two of them. `neighbors` is how many were heard.
     """
 
     found: bool
@@ -87,3 +95,4 @@ class Heard(NamedTuple):
     sum_y: float
     neighbors: int
     told: Any
+    sums: Any = ()

@@ -11,7 +11,7 @@ from shoal.engine.frames import keep_frame
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
 from shoal.engine.stage import FRAMES, RADIO, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD
 from shoal.world.motion import limit_maneuver, limit_speed, move
-from shoal.world.neighbors import link_nearest, measure_distances, settle_ties
+from shoal.world.neighbors import link_nearest, measure_distances, rank_heard, settle_ties
 from shoal.world.presence import update_presence
 from shoal.world.radio import adapt_degree, limit_links, lose_reports, said, send
 from shoal.world.sensing import sense
@@ -76,6 +76,7 @@ def link(here, number, first, step_key):
         link_nearest(links, links.wanted, world.agents)
     else:
         link_nearest(links, swarm.neighbors[first:last], world.agents)
+    rank_heard(links, world.agents)
     return 0
 
 
@@ -94,6 +95,8 @@ def settle(here, number, first, step_key):
     if radio.loss > 0.0:
         lose_reports(links, radio, step_key, first, world.agents)
         changed = True
+    if changed:
+        rank_heard(links, world.agents)
     return 1 if changed else 0
 
 

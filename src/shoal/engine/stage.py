@@ -14,10 +14,14 @@ from shoal.world.targets import Tracks
 
 
 class Scratch(NamedTuple):
-    """Working arrays; nothing in them outlives a step but the guess in links.reach."""
+    """Working arrays; nothing in them outlives a step but the guess in links.reach.
+
+    leader : (B,) index of whom each of the B agents that decide together follows; sums : (S, B) of their influences
+    """
 
     links: Links
     leader: npt.NDArray[np.int64]
+    sums: Floats
     a: Floats
     b: Floats
     c: Floats
@@ -59,12 +63,16 @@ class Stage(NamedTuple):
     frames: Frames
 
 
-def new_scratch(world: World, lanes: int) -> Scratch:
-    """Return scratch for blocks of agents that decide together: all of them, or one in the sequential order."""
+def new_scratch(world: World, lanes: int, sums: int = 2, ranked: bool = False) -> Scratch:
+    """Return scratch for blocks of agents that decide together: all of them, or one in the sequential order.
+
+    sums : how many the strategy has; ranked : whether it asks for the ranks of neighbors
+    """
     width = 1 if world.sequential else lanes
     return Scratch(
-        links=new_links(world.agents, width),
+        links=new_links(world.agents, width, ranked),
         leader=np.zeros(width, np.int64),
+        sums=aligned_zeros(sums * width).reshape((sums, width)),
         a=aligned_zeros(lanes),
         b=aligned_zeros(lanes),
         c=aligned_zeros(lanes),

@@ -19,14 +19,14 @@ def step(here, world, swarm, radio, targets, scratch, minds, params, phases, bat
     together = scratch.leader.size
     for first in range(0, world.agents, together):
         enter(phases.link, here, number, first, step_key)
-        listen(here, world, swarm, scratch, reports, told, params, phases, step_key, number, first)
+        listen(here, world, swarm, radio, scratch, reports, told, params, phases, step_key, number, first)
         decide(world, swarm, targets, scratch, reports, told, minds, params, step_key, number, first)
         enter(phases.go, here, number, (batch << 32) | first, step_key)  # a phase takes two numbers, and go needs three
     enter(phases.conclude, here, number, batch, step_key)
 
 
 @kernel
-def listen(here, world, swarm, scratch, reports, told, params, phases, step_key, number, first):
+def listen(here, world, swarm, radio, scratch, reports, told, params, phases, step_key, number, first):
     """Agents from `first` on sum up their neighbors' influence and choose whom to follow."""
     links, leader = scratch.links, scratch.leader
     last = first + leader.size
@@ -39,9 +39,9 @@ def listen(here, world, swarm, scratch, reports, told, params, phases, step_key,
         swarm.max_speed[first:last],
         swarm.fleet[first:last],
     )
-    clock = (world.time_step, number * world.time_step)
+    clock = (world.time_step, number * world.time_step, (number - radio.delay) * world.time_step)
     for turn in range(2):  # the second where ties or losses changed who is heard; written once, compiled once
-        sum_influence(reports, told, block, links, params, first, world.agents, clock, scratch.b, scratch.c)
+        sum_influence(reports, told, block, links, params, first, world.agents, clock, scratch.sums)
         if turn == 1 or enter(phases.settle, here, number, first, step_key) == 0:
             break
     choose_leaders(reports, told, block, links, params, first, world.agents, clock, leader, scratch.a)
@@ -50,7 +50,7 @@ def listen(here, world, swarm, scratch, reports, told, params, phases, step_key,
 @kernel
 def decide(world, swarm, targets, scratch, reports, told, minds, params, step_key, number, first):
     """Every agent there, from `first` on, asks its strategy for the velocity it wants and updates what it tells."""
-    leader, sum_x, sum_y, count = scratch.leader, scratch.b, scratch.c, scratch.links.heard
+    leader, sums, count = scratch.leader, scratch.sums, scratch.links.heard
     last = min(first + leader.size, world.agents)
     for i in range(first, last):
         if swarm.alive[i] == 0.0:
@@ -68,10 +68,11 @@ def decide(world, swarm, targets, scratch, reports, told, minds, params, step_ke
             reports.vx[j] if found else me.vx,
             reports.vy[j] if found else me.vy,
             reports.on_target[j] if found else me.on_target,
-            sum_x[lane],
-            sum_y[lane],
+            0.0,
+            0.0,
             count[lane],
             told[j],
+            sums[:, lane],
         )
         vx, vy = contract.decide(me, heard, minds.memory[i], params, split(step_key, i))
         swarm.command_x[i] = vx

@@ -68,7 +68,7 @@ class Simulation:
         )
         batches = min(BATCHES, scenario.steps)
         self.tally = new_tally(scenario.steps, batches, len(scenario.fleets), scenario.agents, len(scenario.targets))
-        self._scratch = new_scratch(self.world, self.swarm.x.size)
+        self._scratch = new_scratch(self.world, self.swarm.x.size, self.crew.sums, self.crew.ranked)
         self._begin, self._rollout = entry_points(self.crew)
         self._seed = np.uint64(scenario.seed)
         places = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
