@@ -36,6 +36,11 @@ class StrategyChoice:
         loaded = {"file": self.file, "source": self.source}
         return {"name": self.name, **{key: text for key, text in loaded.items() if text}, **self.params}
 
+    def choices(self) -> dict[str, Any]:
+        """The table without the parameters that are left at their defaults."""
+        model = params_model(self.owner).model_fields
+        return {key: each for key, each in self.flat().items() if key not in self.params or each != model[key].default}
+
     def kernel_params(self) -> Any:
         """The strategy's NamedTuple of parameters: words become their index, numbers the type of the default."""
         params: Any = self.owner.params
@@ -79,7 +84,9 @@ class StrategyChoice:
     def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(
             cls._validate_for_pydantic,
-            serialization=core_schema.plain_serializer_function_ser_schema(cls.flat),
+            serialization=core_schema.plain_serializer_function_ser_schema(
+                lambda choice, info: choice.choices() if info.exclude_defaults else choice.flat(), info_arg=True
+            ),
         )
 
     @classmethod
