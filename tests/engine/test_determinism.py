@@ -83,8 +83,8 @@ class TestCutting:
             assert frames.vy[t].tolist() == swarm.vy[:65].tolist()
             assert frames.memory["repulsion"][t].tolist() == stepped.minds.memory["repulsion"][:65].tolist()
             assert (frames.target_x[t, 0], frames.target_y[t, 0]) == (target["x"], target["y"])
-            stepped.advance(1)
             assert frames.on_target[t].tolist() == swarm.on_target[:65].tolist()
+            stepped.advance(1)
 
 
 class TestSaving:

@@ -273,10 +273,11 @@ class TestAdaptiveDegree:
         simulation = Simulation(scenario("oceans2020", changes))
         swarm, contact = simulation.swarm, np.full(50, 16 / 26)
         for _ in range(300):
+            on_target = swarm.on_target[:50].copy()
             simulation.advance(1)
             links = simulation._scratch.links
             linked = (links.square <= links.reach)[:50, :50]
-            hears = swarm.on_target[:50] | (linked & swarm.on_target[:50, None]).any(axis=0)
+            hears = on_target | (linked & on_target[:, None]).any(axis=0)
             contact += 0.1 / 2.0 * (hears - contact)
             assert swarm.contact[:50] == pytest.approx(contact, abs=1e-12)
             assert (swarm.neighbors[:50] == np.floor(4 + 26 * swarm.contact[:50] + 0.5)).all()

@@ -11,8 +11,12 @@ from shoal.metrics.velocity_fluctuation import tally_velocity_fluctuation
 
 
 @kernel
-def measure_before_move(tally, batch, world, swarm, targets, engaged, active, number, scratch):
-    """What is true at the start of a step: who is on target, how velocities differ, who watches where."""
+def measure_before_move(tally, batch, world, swarm, targets, counts, number, scratch):
+    """What is true at the start of a step: who is on target, how velocities differ, who watches where.
+
+    counts : how many agents are on a target, and how many are there
+    """
+    engaged, active = counts
     tally_time_on_target(tally, batch, targets, engaged)
     tally_contacts(tally, batch, targets)
     tally_velocity_fluctuation(tally, batch, swarm, world.agents, active, scratch.a)

@@ -6,13 +6,14 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from shoal.compiler.phase import put
+from shoal.compiler.kernel import compiles
+from shoal.compiler.placed import Placed
 from shoal.core.agents import NEVER, Minds, as_records
 from shoal.core.errors import RecordError, ScenarioError, StrategyError
 from shoal.core.files import whole_file
-from shoal.engine.phases import PHASES, Addresses
+from shoal.engine.phases import addresses
 from shoal.engine.rollout import set_out
-from shoal.engine.stage import Frames, Stage, new_scratch
+from shoal.engine.stage import Frames, Run, Stage, new_frames, new_scratch
 from shoal.metrics.tally import new_tally
 from shoal.record.trajectory import Trajectory
 from shoal.run.build import build_radio, build_swarm, build_targets, build_world, losses_of, open_tracks
@@ -67,56 +68,63 @@ class Simulation:
             told=as_records(self.swarm.told, self.crew.told),
             arrived=as_records(self.radio.told, self.crew.told),
         )
+        self._records = Minds(*(np.asarray(part) for part in self.minds)) if compiles() else self.minds
         batches = min(BATCHES, scenario.steps)
         self.tally = new_tally(scenario.steps, batches, len(scenario.fleets), scenario.agents, len(scenario.targets))
         self._scratch = new_scratch(self.world, self.swarm.x.size, self.crew.sums, self.crew.ranked)
         self._begin, self._rollout = entry_points(self.crew)
-        self._seed = np.uint64(scenario.seed)
+        self._identity_of_run = Run(np.uint64(scenario.seed), run, scenario.steps)
+        self._phases = addresses()
+        self._no_frames = self._new_frames(0)
+        self._placed = Placed(self._stage(self._no_frames))
         places = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
         lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
-        here, held = put(self._stage(self._new_frames(0)))
-        self._phases = Addresses._make(phase.address() for phase in PHASES)
-        _set_out(here, places, lifetimes, losses_of(scenario), self._seed, run)
-        del held
+        _set_out(self._placed.address, places, lifetimes, losses_of(scenario))
         self.begin()
 
     def begin(self) -> None:
         """Set up every agent's memory, as its strategy does before the first step."""
-        here, held = put(self._stage(self._new_frames(0)))
         with strategy_errors(self.crew):
-            self._begin(here, self.minds, self.crew.params, self._seed, self.run)
-        del held
+            self._begin(self._in_place().address, self._records, self.crew.params)
 
     def advance(self, steps: int, *, every: int | None = None, tail: int | None = None) -> Trajectory | None:
         """Run so many steps; with `every`, return the frames of every so many-th step and of all from step `tail` on.
 
-        Memory and results do not depend on how a run is cut into calls.
+        Memory and results do not depend on how a run is cut into calls. When a call is back the state is true: agents
+        are on target that are where they stand now.
+
+        Raises
+        ------
+        ScenarioError : steps below 0
+        StrategyError : the strategy cannot be compiled, raises an error, or spoils a number
         """
         if steps < 0:
             raise ScenarioError("advance", f"is asked for {steps} steps", "time goes forward: ask for 0 or more")
-        last = self.number + steps
+        first, last = self.number, self.number + steps
+        if every is None:
+            self._roll(self._in_place(), first, last, NEVER, NEVER)
+            return None
         tail = NEVER if tail is None else tail
-        kept = count_frames(self.number, last, every, tail)
-        frames = self._new_frames(kept)
-        here, held = put(self._stage(frames))
-        with strategy_errors(self.crew):
-            self._rollout(
-                here,
-                self.minds,
-                self.crew.params,
-                self._phases,
-                self._seed,
-                self.run,
-                self.number,
-                last,
-                self.scenario.steps,
-                every or NEVER,
-                tail,
-            )
-        del held
-        self.number = last
-        self._check_finite()
-        return Trajectory.from_frames(frames, self.memory_fields) if kept else None
+        frames = self._new_frames(count_frames(first, last, every, tail))
+        self._roll(Placed(self._stage(frames)), first, last, every, tail)
+        return Trajectory.from_frames(frames, self.memory_fields) if frames.step.size else None
+
+    def look(self) -> Trajectory:
+        """Return the frame of now (K = 1), as the coming step would keep it. Nothing is changed."""
+        n, swarm, targets = self.scenario.agents, self.swarm, self.targets
+        return Trajectory(
+            step=np.array([self.number]),
+            x=swarm.x[None, :n].copy(),
+            y=swarm.y[None, :n].copy(),
+            vx=swarm.vx[None, :n].copy(),
+            vy=swarm.vy[None, :n].copy(),
+            on_target=swarm.on_target[None, :n].copy(),
+            alive=swarm.alive[None, :n] > 0.0,
+            target_x=targets["x"][None].copy(),
+            target_y=targets["y"][None].copy(),
+            target_present=targets["present"][None] != 0,
+            memory={name: swarm.memory[None, :n, m].copy() for m, name in enumerate(self.memory_fields)},
+        )
 
     def state(self) -> dict[str, Any]:
         """Everything that a resumed run needs, as arrays by name."""
@@ -165,43 +173,49 @@ class Simulation:
                 str(file), f"is no saved state: {error}", "name a file made by Simulation.save"
             ) from error
 
-    def _check_finite(self) -> None:
-        """Refuse to go on with numbers that a strategy has spoiled.
+    def _roll(self, placed: Placed, first: int, last: int, every: int, tail: int) -> None:
+        """Run steps first..last on a stage.
 
         Raises
         ------
         StrategyError : a position, a velocity or a sum is not finite
         """
-        swarm = self.swarm
-        parts = (swarm.x, swarm.y, swarm.vx, swarm.vy, self.tally.fluctuation)
-        if not all(np.isfinite(part).all() for part in parts):
+        with strategy_errors(self.crew):
+            spoiled = self._rollout(placed.address, self._records, self.crew.params, first, last, every, tail)
+        self.number = last
+        if spoiled:
             raise StrategyError(
                 self.crew.source,
-                f"strategy {self.crew.name!r} wanted a velocity that is no finite number, before step {self.number}",
+                f"strategy {self.crew.name!r} wanted a velocity that is not finite, before step {self.number}",
                 "look for a division by zero or the root of a negative number",
             )
+
+    def _in_place(self) -> Placed:
+        """The stage, where kernels find it; it stays there from call to call unless a part of it is another one."""
+        stage = self._stage(self._no_frames)
+        if any(one is not other for one, other in zip(stage, self._placed.stage, strict=True)):
+            self._placed = Placed(stage)
+        return self._placed
 
     def _identity(self) -> str:
         return f"{self.scenario.hash}-seed{self.scenario.seed}-run{self.run}-results{RESULTS_VERSION}"
 
     def _stage(self, frames: Frames) -> Stage:
-        return Stage(self.world, self.swarm, self.radio, self.targets, self.tracks, self.tally, self._scratch, frames)
+        return Stage(
+            self.world,
+            self.swarm,
+            self.radio,
+            self.targets,
+            self.tracks,
+            self.tally,
+            self._scratch,
+            frames,
+            self._phases,
+            self._identity_of_run,
+        )
 
     def _new_frames(self, count: int) -> Frames:
-        agents, targets = self.scenario.agents, self.targets.size
-        return Frames(
-            step=np.empty(count, np.int64),
-            x=np.empty((count, agents)),
-            y=np.empty((count, agents)),
-            vx=np.empty((count, agents)),
-            vy=np.empty((count, agents)),
-            on_target=np.empty((count, agents), np.bool_),
-            alive=np.empty((count, agents), np.bool_),
-            memory=np.empty((count, agents, self.swarm.memory.shape[1])),
-            target_x=np.empty((count, targets)),
-            target_y=np.empty((count, targets)),
-            target_present=np.empty((count, targets), np.bool_),
-        )
+        return new_frames(count, self.scenario.agents, self.targets.size, self.swarm.memory.shape[1])
 
 
 def count_frames(first: int, last: int, every: int | None, tail: int) -> int:

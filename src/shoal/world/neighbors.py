@@ -61,6 +61,12 @@ def new_links(agents: int, lanes: int, ranked: bool = False) -> Links:
 
 
 @kernel
+def linked(links, j, i):
+    """Whether listener i hears speaker j: whoever asks, asks here, so that neighbors can be found in another way."""
+    return links.square[j, i] <= links.reach[i]
+
+
+@kernel
 def measure_distances(links, speaker_x, speaker_y, listener_x, listener_y, first, agents):
     """Fill `links.square`; listener lane i is agent first + i."""
     lanes = listener_x.size
@@ -281,7 +287,7 @@ def rank_heard(links, agents):
         count = 0
         for j in range(agents):
             rank[j, i] = agents
-            if square[j, i] <= reach[i]:
+            if linked(links, j, i):
                 order[count] = j
                 count += 1
         _sort_by_distance(order, count, square, i)

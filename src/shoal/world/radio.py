@@ -8,6 +8,7 @@ import numpy.typing as npt
 from shoal.compiler.kernel import kernel
 from shoal.core.agents import Floats, width
 from shoal.core.draws import split, uniform
+from shoal.world.neighbors import linked
 
 _LOSS = 1 << 33  # a stream of keys that neither agents nor targets draw from
 
@@ -169,7 +170,7 @@ def adapt_degree(swarm, radio, links, reports, first, last, world):
     for j in range(world.agents):
         if reports.on_target[j]:
             for i in range(last - first):
-                contact[i] |= 1 if links.square[j, i] <= links.reach[i] else 0
+                contact[i] |= 1 if linked(links, j, i) else 0
     weight = min(1.0, world.time_step / radio.patience)
     for i in range(first, last):
         if swarm.alive[i] > 0.0:
