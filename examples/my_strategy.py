@@ -22,7 +22,7 @@ def keep_apart(me, other, params):
 def wander(me, heard, memory, params, draw):
     """Walk straight, turn now and then, chase the nearest neighbor on target."""
     if heard.found:
-        return heard.x - me.x, heard.y - me.y
+        return (heard.x - me.x) / me.time_step, (heard.y - me.y) / me.time_step  # there in one step
     if shoal.uniform(draw, 0) < params.turn_chance:
         memory.heading = 2 * math.pi * shoal.uniform(draw, 1)
     vx = me.max_speed * math.cos(memory.heading) + heard.sum_x

@@ -4,7 +4,7 @@ import copy
 import math
 from typing import get_type_hints
 
-from shoal.core.units import Choice
+from shoal.core.units import Choice, Range
 from shoal.strategies import CATALOGUE
 
 STRATEGIES = sorted(name for name, known in CATALOGUE.items() if known.builtin)
@@ -127,7 +127,9 @@ def _strategy(rng, name):
         default = params._field_defaults[field]
         words = next((mark.words for mark in getattr(hint, "__metadata__", ()) if isinstance(mark, Choice)), None)
         if rng.random() < 0.3:
-            table[field] = str(rng.choice(words)) if words else type(default)(default * rng.uniform(0.5, 2.0))
+            most = next((mark.most for mark in getattr(hint, "__metadata__", ()) if isinstance(mark, Range)), math.inf)
+            number = min(default * rng.uniform(0.5, 2.0), most)
+            table[field] = str(rng.choice(words)) if words else type(default)(number)
     return table
 
 

@@ -57,7 +57,7 @@ def test_the_page_quotes_the_example(page, example):
 
 
 def test_the_commands_and_the_code_of_the_page_on_films_run(tmp_path, monkeypatch, capsys):
-    pytest.importorskip("imageio_ffmpeg", reason="films need imageio-ffmpeg: pip install 'shoal[video]'")
+    pytest.importorskip("imageio_ffmpeg", reason="films need imageio-ffmpeg: pip install '.[video]'")
     monkeypatch.chdir(tmp_path)
     page = (ROOT / "docs/how-to/film.md").read_text(encoding="utf-8")
     _, commands, *_ = re.findall(r"```sh\n(.*?)```", page, flags=re.DOTALL)

@@ -1,6 +1,9 @@
 """Any scenario that is accepted runs; any other ends in one clear error."""
 
+import copy
+import math
 import tomllib
+from datetime import date
 
 import numpy as np
 import pytest
@@ -8,11 +11,14 @@ import tomli_w
 
 from random_scenarios import STEPS, STRATEGIES, TEAMS, broken_table, valid_table
 from shoal.cli.main import BAD_INPUT, run_command
+from shoal.cli.options import edited_table
 from shoal.core.errors import ShoalError
+from shoal.core.text import hides
 from shoal.metrics.summary import METRICS
 from shoal.run.facts import facts_of
 from shoal.run.simulation import Simulation
 from shoal.scenario.load import load, scenario_from, to_toml
+from shoal.strategies import CATALOGUE
 
 CREWS = [*([name] for name in STRATEGIES), *TEAMS]
 VALID = -(-2000 // len(CREWS))  # of each crew
@@ -175,3 +181,129 @@ class TestInvalid:
             file.write_text(whole[:end], encoding="utf-8")
             refused += bool(refusal(load, file))
         assert refused > 100
+
+
+WHOLE = {
+    "name": "b", "description": "", "time_step": 0.1, "steps": 20, "seed": 1,
+    "area": {"width": 20.0, "height": 20.0, "agent_margin": 0.5, "origin": [1.0, 2.0]},
+    "fleets": [
+        {"name": "A", "count": 3, "max_speed": 2.0, "mass": 3.0, "sensor_radius": 0.1, "start": "uniform",
+         "neighbors": 2, "detection_probability": 0.9, "false_alarm_probability": 0.01, "mean_lifetime": 100.0,
+         "max_acceleration": 1.0, "max_turn_rate": 90.0, "strategy": {"name": "levy-walk", "exponent": 2.0}},
+        {"name": "B", "count": 5, "max_speed": 1.0},
+    ],
+    "network": {"neighbors": 4, "range": 10.0, "loss": 0.1, "delay": 2,
+                "adaptive": {"fewest": 1, "most": 5, "patience": 3.0}},
+    "motion": {"update_order": "synchronous", "speed_rule": "cap"},
+    "strategy": {"name": "knn-pso", "inertia": 1.0, "follow": "nearest", "delta": 0.01},
+    "targets": [
+        {"kind": "waypoint", "radius": 1.0, "speed": 3.0, "margin": 1.0, "max_turn": 20.0, "waypoint_reach": 1.0,
+         "waypoint_patience": 50},
+        {"kind": "still", "radius": 1.0, "x": 1.0, "y": 2.0},
+        {"kind": "line", "radius": 1.0, "speed": 1.0, "surface_time": 1.0, "dive_time": 1.0},
+        {"kind": "levy", "radius": 1.0, "speed": 1.0, "exponent": 2.0, "shortest": 1.0, "longest": 5.0},
+        {"kind": "evasive", "radius": 1.0, "speed": 1.0, "sight": 2.0, "wall_sight": 1.0},
+        {"kind": "drift", "radius": 1.0, "speed": 0.5, "current_x": 0.1, "current_y": -0.2},
+        {"kind": "walk", "radius": 1.0, "speed": 1.0, "persistence": 5.0},
+    ],
+    "losses": [{"step": 5, "count": 1, "fleet": "A"}],
+    "joins": [{"step": 7, "count": 2, "fleet": "B"}],
+}  # fmt: skip
+NASTY = [
+    True, "", "abc", " ", "\0", "5 kn", "1e999 m", "-3 m", "nan", -1, 0, 2.5, -0.0, 5e-324, 1e13, 1e308, math.inf,
+    math.nan, 10**30, 2**63, [], [1], [[]], {}, {"a": 1}, {"name": "x"}, {"name": []}, {"file": "nope.py"},
+    {"file": "\0.py"}, "x" * 100_000, [1] * 2000, "[/b]", "$\\frac{", "\x1b[2J", "a\u202eb", "\u0665", "1_0", " 5 ",
+    "10 %", date(2020, 1, 1), "all", "../x",
+]  # fmt: skip
+
+
+def _paths(table, path=()):
+    for key, value in table.items() if isinstance(table, dict) else enumerate(table):
+        yield (*path, key)
+        if isinstance(value, (dict, list)):
+            yield from _paths(value, (*path, key))
+
+
+class TestNasty:
+    """Every field of a scenario that says all there is, with every nasty value, by every door."""
+
+    @pytest.mark.parametrize("door", ["table", "file", "set"])
+    def test_ends_in_a_scenario_or_in_one_short_plain_error(self, door, tmp_path):
+        cases = [(path, value) for path in _paths(WHOLE) for value in NASTY]
+        refused = 0
+        for path, value in cases:
+            try:
+                refused += self.refuses(door, path, value, tmp_path / "nasty.toml")
+            except BaseException as error:
+                raise AssertionError(f"{path} = {value!r:.80}: {error!r:.500}") from error
+        assert len(cases) > 2000
+        assert refused > len(cases) / 2
+
+    def refuses(self, door, path, value, file):
+        try:
+            chosen = self.through(door, path, copy.deepcopy(value), file)
+        except ShoalError as error:
+            told = str(error)
+            assert told.count("\n  fix: ") == 1
+            assert len(told) < 5000
+            assert not any(hides(each) for each in told if each != "\n")
+            return True
+        if chosen is not None:
+            assert scenario_from(tomllib.loads(to_toml(chosen))) == chosen
+        return False
+
+    @staticmethod
+    def through(door, path, value, file):
+        if door == "set":
+            text = tomli_w.dumps({"value": value}).strip()
+            if "\n" in text or not text.startswith("value = "):
+                return None  # a table, which no option can write
+            assignment = f"{'.'.join(map(str, path))}={text.removeprefix('value = ')}"
+            file.write_text(tomli_w.dumps(WHOLE), encoding="utf-8")
+            return scenario_from(edited_table(str(file), {}, [assignment], None, None), where=str(file))
+        table = copy.deepcopy(WHOLE)
+        part = table
+        for key in path[:-1]:
+            part = part[key]
+        part[path[-1]] = value
+        if door == "table":
+            return scenario_from(table)
+        file.write_text(tomli_w.dumps(table), encoding="utf-8")
+        return load(file)
+
+    @pytest.mark.parametrize("whole", [None, [], "x", 5, {}, {"strategy": None}, {"fleets": {}}, {"fleets": [[]]}])
+    def test_what_is_no_scenario_at_all_is_refused(self, whole):
+        refusal(scenario_from, whole)
+
+    @pytest.mark.parametrize(
+        "text",
+        ["a=" + "[" * 5000 + "]" * 5000, "[" + ".".join(["a"] * 5000) + "]", "steps=" + "9" * 5000,
+         "#" + "x" * 2_000_000, "fleets=[" + "{}," * 100_000 + "]", "[[fleets]]\n" * 20_000,
+         "\n".join(f"x{n} = 1" for n in range(20_000))],
+        ids=["deep", "deep header", "long number", "long file", "many fleets", "many tables", "many fields"],
+    )  # fmt: skip
+    def test_too_much_of_anything_is_one_short_error(self, text, tmp_path):
+        file = tmp_path / "much.toml"
+        file.write_text(text)
+        assert len(refusal(load, file)) < 2500
+
+    def test_twenty_errors_are_enough(self, tmp_path):
+        file = tmp_path / "many.toml"
+        file.write_text("[[fleets]]\n" * 300)
+        told = refusal(load, file)
+        assert told.count("\n  also: ") == 19
+        assert "\n  and 886 more" in told
+
+    def test_a_device_that_never_ends_is_refused(self):
+        assert "is larger than 1 MB" in refusal(load, "/dev/zero")
+
+
+class TestParameters:
+    """Strategies say what their parameters may be."""
+
+    @pytest.mark.parametrize("name", STRATEGIES)
+    def test_no_strategy_takes_a_number_below_its_range(self, name):
+        for field, default in CATALOGUE[name].params._field_defaults.items():
+            if isinstance(default, float):
+                told = refusal(scenario_from, {**WHOLE, "strategy": {"name": name, field: -1e-3}})
+                assert f"strategy.{field}: -0.001: input should be greater than" in told

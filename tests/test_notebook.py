@@ -40,7 +40,7 @@ class TestNotebook:
 
     def test_every_cell_runs(self, notebook, tmp_path, monkeypatch):
         for extra in EXTRAS:
-            pytest.importorskip(extra, reason="the notebook needs pip install 'shoal[plots,sweep]'")
+            pytest.importorskip(extra, reason="the notebook needs pip install '.[plots,sweep]'")
         monkeypatch.chdir(tmp_path)
         before, scope = dict(CATALOGUE), {"__name__": "__main__"}
         try:

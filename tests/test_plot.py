@@ -9,7 +9,7 @@ from shoal import plot
 from shoal.core.errors import RecordError, ScenarioError, ShoalError
 from shoal.drawing.style import new_figure, style
 
-pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install 'shoal[plots]'")
+pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install '.[plots]'")
 
 TARGETS = [
     {"kind": "still", "radius": 1.0},

@@ -1,4 +1,4 @@
-"""Shoal: design, test and deploy swarms that search for and track moving targets at sea.
+"""Shoal: simulate and compare swarms of buoys that search for and track moving targets at sea.
 
 >>> import shoal
 >>> record = shoal.simulate("oceans2020", runs=5, steps=20_000, neighbors=10, target_speed="6 kn")

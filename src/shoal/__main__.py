@@ -1,5 +1,32 @@
-"""python -m shoal: the command line."""
+"""python -m shoal, and the shoal command: Ctrl-C is one line from the first moment on, not a traceback."""
 
-from shoal.cli.main import main
+import os
+import signal
+import sys
+from typing import Any
 
-main()
+
+def main() -> None:
+    """Run the command line and exit; docs/reference/cli.md has the codes."""
+    heeded = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # not under nohup
+    if heeded:
+        signal.signal(signal.SIGINT, _leave)  # while what is imported below takes half a second
+    from shoal.cli.main import run_command
+    from shoal.cli.signals import heed_signals
+
+    heed_signals()
+    if heeded:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    code = run_command(sys.argv[1:])
+    if heeded:
+        signal.signal(signal.SIGINT, _leave)
+    sys.exit(code)
+
+
+def _leave(*_: Any) -> None:
+    os.write(2, b"shoal: interrupted\n")
+    os._exit(130)
+
+
+if __name__ == "__main__":
+    main()

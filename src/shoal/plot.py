@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shoal.core.errors import RecordError, ScenarioError, did_you_mean, no_attribute
+from shoal.core.text import plain
 from shoal.drawing.arena import arena_aspect
 from shoal.drawing.curves import draw_batches
 from shoal.drawing.files import save_figure
@@ -208,7 +209,7 @@ def curves(
         raise ScenarioError(f"field {unknown[0]}", "is none of this sweep", f"{hint}there are: {', '.join(fields)}")
     made: dict[Any, Curve] = {}
     for group in aggregate(rows, names, [y]):
-        label = f"{hue} {group[hue]}".replace("_", " ") if hue else ""
+        label = plain(f"{hue} {group[hue]}".replace("_", " ")) if hue else ""
         curve = made.setdefault(label, Curve(label, [], [], [], []))
         curve.x.append(group[x])
         curve.mean.append(group[y])

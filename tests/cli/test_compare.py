@@ -117,7 +117,7 @@ class TestFigure:
         "vary", [[], ["--vary", "target-speed=3,5"], ["--vary", "fleets.BoB-1.start=corner,center"]]
     )
     def test_bars_curves_and_panels_are_drawn(self, capsys, vary):
-        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install 'shoal[plots]'")
+        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install '.[plots]'")
         code, _, _ = shoal(capsys, "compare", "knn-pso", *SHORT, *vary, "--figure", "f.png")
         assert code == 0
         assert Path("f.png").read_bytes().startswith(b"\x89PNG")

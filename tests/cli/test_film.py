@@ -6,8 +6,8 @@ import pytest
 
 from shoal.cli.main import run_command
 
-pytest.importorskip("imageio_ffmpeg", reason="films need imageio-ffmpeg: pip install 'shoal[video]'")
-pytest.importorskip("matplotlib", reason="films need matplotlib: pip install 'shoal[video]'")
+pytest.importorskip("imageio_ffmpeg", reason="films need imageio-ffmpeg: pip install '.[video]'")
+pytest.importorskip("matplotlib", reason="films need matplotlib: pip install '.[video]'")
 
 
 @pytest.fixture(autouse=True)

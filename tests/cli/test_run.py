@@ -54,7 +54,7 @@ class TestRun:
         assert json.loads(shown) == json.loads(printed)
 
     def test_a_figure_is_drawn(self, capsys):
-        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install 'shoal[plots]'")
+        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install '.[plots]'")
         code, _, _ = shoal(capsys, "run", "oceans2020", "--steps", 300, "--figure", "f.png")
         assert code == 0
         assert Path("f.png").read_bytes().startswith(b"\x89PNG")
@@ -200,7 +200,7 @@ class TestSweep:
         assert not list(Path().iterdir())
 
     def test_sweep_results_and_plot(self, capsys):
-        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install 'shoal[plots]'")
+        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install '.[plots]'")
         vary = ("--vary", "neighbors=10,20", "--vary", "fast=0,15")
         assert shoal(capsys, "sweep", "oceans2020", *vary, "--runs", 2, "--steps", 100, "--out", "s")[0] == 0
         assert "time on target" in shoal(capsys, "results", "s")[1]
@@ -316,7 +316,7 @@ class TestProcess:
             [sys.executable, "-m", "shoal", "run", "oceans2020", "--steps", "50000000", "--out", str(tmp_path / "r")],
             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True,
         )  # fmt: skip
-        while not (tmp_path / "r.partial").exists():
+        while not (tmp_path / "r").exists():
             time.sleep(0.1)
         time.sleep(2.0)
         asked = time.monotonic()

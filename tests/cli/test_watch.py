@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from scenarios import scenario
-from shoal.cli.main import run_command
+from shoal.cli.main import BAD_INPUT, run_command
 from shoal.record.files import open_record
 from shoal.run.simulate import simulate
 
@@ -154,3 +154,10 @@ class TestBadInput:
         told = refused(capsys, "watch", "oceans2020", "--against", "neighbors=5", "--out", tmp_path / "r")
         assert "--against shows two" in told
         assert not list(tmp_path.iterdir())
+
+
+def test_a_missing_library_is_named_before_anything_is_compiled(monkeypatch, capsys):
+    monkeypatch.setattr("shoal.viewer.server.find_spec", lambda name: None)
+    monkeypatch.setattr("shoal.viewer.session.Session.__init__", lambda *_, **__: pytest.fail("it was compiled"))
+    assert run_command(["watch", "oceans2020", "--no-browser"]) == BAD_INPUT
+    assert "starlette: is not installed" in capsys.readouterr().err

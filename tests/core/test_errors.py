@@ -30,4 +30,4 @@ class TestShoalError:
 
     def test_a_missing_extra_names_the_command_that_installs_it(self):
         error = MissingExtraError.of("pyproj", "maritime", "projecting a track")
-        assert error.args[2] == "pip install 'shoal[maritime]'"
+        assert error.args[2] == "pip install '.[maritime]', in your clone of Shoal"

@@ -41,7 +41,9 @@ class TestErrors:
         assert not list(tmp_path.iterdir())
 
     def test_a_folder_that_is_not_there(self, tmp_path, figure):
-        with pytest.raises(RecordError, match=r"cannot be written: .*\n  fix: name a file in a folder that exists"):
+        with pytest.raises(
+            RecordError, match=r"cannot be written: there is no folder .*\n  fix: make the folder first"
+        ):
             save_figure(figure, tmp_path / "nowhere" / "figure.svg")
 
     def test_a_name_that_a_folder_has(self, tmp_path, figure):
@@ -56,15 +58,15 @@ class TestErrors:
             raise OSError(28, "No space left on device")
 
         path = tmp_path / "figure.png"
-        path.write_bytes(b"old")
+        path.write_bytes(b"old, of shoal")
         monkeypatch.setattr(figure, "savefig", fill_the_disk)
         with pytest.raises(RecordError, match="No space left on device"):
             save_figure(figure, path)
-        assert path.read_bytes() == b"old"
+        assert path.read_bytes() == b"old, of shoal"
         assert list(tmp_path.iterdir()) == [path]
 
     def test_without_matplotlib_the_extra_is_named(self, monkeypatch):
         monkeypatch.setitem(sys.modules, "matplotlib", None)
         monkeypatch.setitem(sys.modules, "matplotlib.style", None)
-        with pytest.raises(MissingExtraError, match=r"pip install 'shoal\[plots\]'"), style():
+        with pytest.raises(MissingExtraError, match=r"pip install '\.\[plots\]'"), style():
             pass

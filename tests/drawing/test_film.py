@@ -188,10 +188,10 @@ class TestErrors:
             raise KeyboardInterrupt
 
         file = tmp_path / f"film.{kind}"
-        file.write_text("old")
+        file.write_text("old, of shoal")
         with pytest.raises(KeyboardInterrupt):
             write_film(make_record(), file, steps=4, look=SMALL, progress=interrupt)
-        assert [(each.name, each.read_text()) for each in tmp_path.iterdir()] == [(file.name, "old")]
+        assert [(each.name, each.read_text()) for each in tmp_path.iterdir()] == [(file.name, "old, of shoal")]
 
     def test_an_ffmpeg_that_fails_is_one_error_with_its_words(self, make_record, tmp_path, monkeypatch):
         broken = tmp_path / "ffmpeg"
@@ -204,7 +204,7 @@ class TestErrors:
 
     def test_a_missing_extra_is_one_sentence(self, make_record, tmp_path, monkeypatch):
         monkeypatch.setitem(__import__("sys").modules, "imageio_ffmpeg", None)
-        with pytest.raises(MissingExtraError, match=r"pip install 'shoal\[video\]'"):
+        with pytest.raises(MissingExtraError, match=r"pip install '\.\[video\]'"):
             write_film(make_record(), tmp_path / "film.mp4", look=SMALL)
 
     def test_a_still_needs_no_ffmpeg(self, make_record, tmp_path, monkeypatch):

@@ -61,7 +61,7 @@ class TestPairedDifference:
 
     def test_without_scipy_the_extra_is_named(self, monkeypatch):
         monkeypatch.setitem(sys.modules, "scipy.stats", None)
-        with pytest.raises(MissingExtraError, match=r"pip install 'shoal\[sweep\]'"):
+        with pytest.raises(MissingExtraError, match=r"pip install '\.\[sweep\]'"):
             need_scipy()
 
 

@@ -1,5 +1,6 @@
 """A sweep computes what is missing, loses nothing, mixes nothing."""
 
+import errno
 import os
 import random
 import signal
@@ -16,6 +17,7 @@ from shoal.experiments.executors import in_threads
 from shoal.experiments.results import aggregate, load_results, read_rows, seal
 from shoal.experiments.store import Store
 from shoal.experiments.sweep import Stop, sweep
+from shoal.version import RESULTS_VERSION
 
 DESIGN = Design("oceans2020", tuple(grid({"neighbors": [10, 30], "fast": [0, 15]})), 2)
 SHORT = {"steps": 300}
@@ -123,7 +125,7 @@ class TestStore:
     def test_another_results_version_is_refused(self, tmp_path, monkeypatch):
         sweep(DESIGN, tmp_path, changes=SHORT)
         monkeypatch.setattr("shoal.experiments.sweep.RESULTS_VERSION", 99)
-        with pytest.raises(RecordError, match="results_version: 1 then, 99 now"):
+        with pytest.raises(RecordError, match=f"holds numbers of results version {RESULTS_VERSION}, which"):
             sweep(DESIGN, tmp_path, changes=SHORT)
 
     def test_a_second_writer_is_kept_out_with_a_clear_message(self, tmp_path):
@@ -132,7 +134,7 @@ class TestStore:
             "fields": [],
             "changes": {},
             "independent": False,
-            "results_version": 1,
+            "results_version": RESULTS_VERSION,
             "metrics": [],
         }
         with Store(tmp_path, identity):
@@ -141,6 +143,43 @@ class TestStore:
             assert read_rows(tmp_path) == ([], [])
         with Store(tmp_path, identity):
             pass
+        assert [each.name for each in tmp_path.iterdir()] == ["runs.sqlite"]
+
+    def test_a_file_system_without_locks_is_named_as_such(self, tmp_path, monkeypatch):
+        def refuse(held, how):
+            raise OSError(errno.ENOLCK, "No locks available")
+
+        monkeypatch.setattr("fcntl.flock", refuse)
+        with pytest.raises(
+            RecordError, match=r"does not lock files \(No locks available\)\n  fix: use a folder on a loc"
+        ):
+            sweep(DESIGN, tmp_path / "new", changes=SHORT)
+        assert not (tmp_path / "new").exists()
+
+    def test_a_lock_of_another_program_is_not_taken_for_a_sweep(self, tmp_path, monkeypatch):
+        sweep(DESIGN, tmp_path, changes=SHORT)
+        monkeypatch.setattr("shoal.experiments.store._PATIENCE", 0.1)
+        other = sqlite3.connect(tmp_path / "runs.sqlite", isolation_level=None)
+        other.execute("PRAGMA journal_mode=DELETE")
+        other.execute("BEGIN EXCLUSIVE")
+        with pytest.raises(RecordError, match="is locked, though no sweep writes it"):
+            sweep(DESIGN, tmp_path, changes=SHORT)
+        other.close()
+
+    def test_a_folder_of_other_things_is_refused_and_kept(self, tmp_path):
+        (tmp_path / "results.csv").write_text("mine")
+        with pytest.raises(RecordError, match="is not empty, and holds no sweep"):
+            sweep(DESIGN, tmp_path, changes=SHORT)
+        assert [each.name for each in tmp_path.iterdir()] == ["results.csv"]
+
+    def test_a_database_of_something_else_is_refused_and_kept(self, tmp_path):
+        database = sqlite3.connect(tmp_path / "runs.sqlite")
+        database.execute("CREATE TABLE runs (distance)")
+        database.close()
+        before = (tmp_path / "runs.sqlite").read_bytes()
+        with pytest.raises(RecordError, match="has not the tables of a sweep"):
+            sweep(DESIGN, tmp_path, changes=SHORT)
+        assert (tmp_path / "runs.sqlite").read_bytes() == before
 
     def test_it_is_plain_sqlite(self, tmp_path):
         sweep(DESIGN, tmp_path, changes=SHORT)
@@ -155,7 +194,7 @@ class TestStore:
             read_rows(tmp_path)
 
     def test_results_load_as_a_data_frame(self, tmp_path):
-        pytest.importorskip("pandas", reason="load_results needs pandas: pip install 'shoal[sweep]'")
+        pytest.importorskip("pandas", reason="load_results needs pandas: pip install '.[sweep]'")
         sweep(DESIGN, tmp_path, changes=SHORT)
         frame = load_results(tmp_path)
         assert len(frame) == 8
@@ -236,7 +275,7 @@ class TestKilled:
 class TestDask:
     @pytest.mark.slow
     def test_a_worker_killed_in_the_middle_changes_nothing(self, tmp_path):
-        distributed = pytest.importorskip("distributed", reason="Dask is absent: pip install 'shoal[cluster]'")
+        distributed = pytest.importorskip("distributed", reason="Dask is absent: pip install '.[cluster]'")
         from shoal.experiments.executors import on_dask
 
         design = Design("oceans2020", tuple(grid({"neighbors": list(range(5, 25))})), 2)

@@ -7,7 +7,7 @@ import shoal
 from shoal.core.errors import RecordError
 from shoal.metrics.summary import METRICS
 
-pytest.importorskip("pandas", reason="tables need pandas: pip install 'shoal[sweep]'")
+pytest.importorskip("pandas", reason="tables need pandas: pip install '.[sweep]'")
 
 
 @pytest.fixture(scope="module")
@@ -71,7 +71,7 @@ class TestDataset:
 
     @pytest.fixture
     def dataset(self, record):
-        pytest.importorskip("xarray", reason="datasets need xarray: pip install 'shoal[xarray]'")
+        pytest.importorskip("xarray", reason="datasets need xarray: pip install '.[xarray]'")
         return record.to_xarray()
 
     def test_the_whole_is_refused(self, dataset):

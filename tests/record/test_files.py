@@ -161,11 +161,39 @@ class TestFailure:
         assert "cannot be written" in refusal(save_record, record, tmp_path / "file" / "record")[1]
         assert left_in(tmp_path) == ["file"]
 
-    def test_what_a_killed_process_left_is_replaced(self, record, tmp_path):
-        (tmp_path / "record.partial" / "run-0000").mkdir(parents=True)
-        (tmp_path / "record.partial" / "run-0000" / "x.npy").write_bytes(b"half")
+    def test_what_a_killed_process_left_is_no_obstacle(self, record, tmp_path):
+        half = tmp_path / "record" / f".shoal-{'0' * 32}.partial" / "run-0000"
+        half.mkdir(parents=True)
+        (half / "x.npy").write_bytes(b"half")
+        (tmp_path / "record" / ".shoal.lock").write_text("process 1")
         save_record(record, tmp_path / "record")
-        assert left_in(tmp_path) == ["record"]
+        assert left_in(tmp_path / "record") == ["record.json", "run-0000", "run-0001", "run-0002", "tallies.npz"]
+
+    def test_a_folder_of_the_users_called_partial_is_left_alone(self, record, tmp_path):
+        (tmp_path / "record.partial").mkdir()
+        (tmp_path / "record.partial" / "thesis.txt").write_text("years of work")
+        save_record(record, tmp_path / "record")
+        assert (tmp_path / "record.partial" / "thesis.txt").read_text() == "years of work"
+
+
+class TestTwoWriters:
+    """Of one name: the first has it, the second is told so before its first step, and nothing is mixed."""
+
+    def test_the_second_is_refused_while_the_first_runs(self, tmp_path):
+        def refuse_another(done, total):
+            said.append(refusal(simulate, scenario("oceans2020", {"steps": STEPS, "seed": 2}), out=tmp_path / "dup")[1])
+
+        said = []
+        first = simulate(
+            scenario("oceans2020", {"steps": STEPS}), every=10, out=tmp_path / "dup", progress=refuse_another
+        )
+        assert said[0].startswith("is being written by process ")
+        assert open_record(tmp_path / "dup").provenance["seed"] == 1
+        alone = simulate(scenario("oceans2020", {"steps": STEPS}), every=10)
+        assert first.tallies[0].on_target.tobytes() == alone.tallies[0].on_target.tobytes()
+        assert first.trajectories[0].x.tobytes() == alone.trajectories[0].x.tobytes()
+        assert left_in(tmp_path) == ["dup"]
+        assert left_in(tmp_path / "dup") == ["record.json", "run-0000", "tallies.npz"]
 
 
 def cut(path, size):

@@ -244,3 +244,9 @@ class TestFacts:
         assert facts.counts == (15, 35)
         assert facts.max_speeds == (2.6, 1.0)
         assert (facts.unit, facts.time_step) == (2.0, 0.1)
+
+
+def test_its_repr_says_how_far_it_is():
+    simulation = Simulation(scenario("oceans2020", {"steps": 50}), run=2)
+    simulation.advance(7)
+    assert repr(simulation) == "<Simulation of oceans2020, run 2: step 7 of 50>"

@@ -118,6 +118,11 @@ class TestWith:
         on_track = paper.with_(target_track=file, steps=30, **{"targets.0.radius": 99})
         assert (on_track.targets[0].kind, on_track.targets[0].radius, on_track.steps) == ("track", 99, 30)
 
+    @pytest.mark.parametrize(("word", "meant"), [("run", "runs"), ("evry", "every"), ("target_trck", "target_track")])
+    def test_a_misspelt_keyword_of_a_function_is_answered_too(self, paper, word, meant):
+        with pytest.raises(ScenarioError, match=f"did you mean '{meant}'"):
+            shoal.simulate(paper, **{word: 3})
+
 
 class TestSource:
     """What can be read as a scenario, at every public door."""

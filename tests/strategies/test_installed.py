@@ -68,6 +68,12 @@ class TestAPackage:
         assert code == 0
         assert json.loads(out)["steps"] == 50
 
+    def test_is_compared_like_our_own(self, site):
+        install(site, "zigzag", ZIGZAG)
+        code, out, err = shoal(site, "compare", "zigzag", "--steps", "20", "--runs", "2", "--json")
+        assert code == 0, err
+        assert json.loads(out)["baseline"] == "zigzag"
+
     def test_another_version_of_it_is_another_scenario(self, site):
         install(site, "zigzag", ZIGZAG)
         (site.parent / "mine.toml").write_text(

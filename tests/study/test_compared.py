@@ -10,7 +10,7 @@ from commands import shoal as command
 from shoal.core.errors import ScenarioError, StrategyError, UnknownNameError
 from shoal.strategies import CATALOGUE
 
-pytest.importorskip("scipy.stats", reason="comparisons need scipy: pip install 'shoal[sweep]'")
+pytest.importorskip("scipy.stats", reason="comparisons need scipy: pip install '.[sweep]'")
 
 SHORT = {"steps": 200, "runs": 3}
 
@@ -70,7 +70,7 @@ class TestLooks:
         assert found._repr_html_().count("<tr>") == 1 + 6
 
     def test_a_figure_that_a_notebook_shows(self, found):
-        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install 'shoal[plots]'")
+        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install '.[plots]'")
         assert found.plot()._repr_png_().startswith(b"\x89PNG")
 
 

@@ -52,7 +52,7 @@ class TestLists:
         assert found._repr_html_().count("<tr>") == 1 + len(found)
 
     def test_as_a_table(self, listed):
-        pytest.importorskip("pandas", reason="tables need pandas: pip install 'shoal[sweep]'")
+        pytest.importorskip("pandas", reason="tables need pandas: pip install '.[sweep]'")
         assert listed().to_pandas()["name"].tolist() == listed().names
 
 

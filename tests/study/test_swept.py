@@ -78,7 +78,7 @@ class TestLooks:
         assert found._repr_html_().count("<tr>") == 1 + 4
 
     def test_a_figure_that_a_notebook_shows(self, found):
-        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install 'shoal[plots]'")
+        pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install '.[plots]'")
         assert found.plot(x="neighbors", hue="fast")._repr_png_().startswith(b"\x89PNG")
 
     def test_failures_are_told(self, tmp_path):
@@ -100,6 +100,8 @@ class TestLooks:
         ({"neighbors": []}, {}, "has no values"),
         ({"neighbors": [object()]}, {}, "give a number"),
         (["neighbors"], {}, 'write vary={"neighbors"'),
+        ({5: [1]}, {}, 'write vary={"neighbors"'),
+        ({"neighbors": [1]}, {"until": 3}, "did you mean 'until_ci'"),
         ({"neighbors": [1]}, {"stepss": 3}, "did you mean 'steps'"),
         ({"neighbors": [1]}, {"runs": 0}, "ask for 1 or more"),
         ({"neighbors": [1]}, {"jobs": 0}, "ask for 1 or more"),

@@ -272,3 +272,23 @@ class TestLargeFile:
         peak = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         assert peak < 3 * path.stat().st_size
+
+
+class TestHemispheres:
+    """Degrees without a sign, and a column of letters that says on which side."""
+
+    @pytest.mark.parametrize(
+        ("header", "sides", "origin"),
+        [
+            ("time,lat,NS,lon,EW", ("N", "W"), (-5.0, 60.0)),
+            ("time,Latitude,N/S,Longitude,E/W", ("S", "E"), (5.0, -60.0)),
+            ("time,lat,lat_dir,lon,lon_dir", ("S", "West"), (-5.0, -60.0)),
+            ("time,lat,latitude_ref,lon,longitude_ref", ("N", "E"), (5.0, 60.0)),
+            ("time,lat,course,lon,wind", ("S", "W"), (5.0, 60.0)),
+        ],
+    )
+    def test_turn_the_sign(self, tmp_path, header, sides, origin):
+        file = tmp_path / "sides.csv"
+        rows = [f"2024-03-10T12:{m:02}:00Z,{60 + 1e-4 * m},{sides[0]},{5 + 1e-4 * m},{sides[1]}" for m in range(20)]
+        file.write_text("\n".join([header, *rows]))
+        assert read_track(file).origin == pytest.approx(origin, abs=0.002)

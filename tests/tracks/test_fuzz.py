@@ -164,8 +164,11 @@ def test_an_odd_netcdf_file_is_read_or_refused_with_one_clear_error(tmp_path, sh
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of what is written
             netcdf(odd, path)
-        if odd.random() < 0.1:
-            path.write_bytes(path.read_bytes()[: odd.randrange(400)])
+        if odd.random() < 0.3:
+            data = bytearray(path.read_bytes())
+            for _ in range(odd.choice([1, 8, 40])):
+                data[odd.randrange(len(data))] = odd.randrange(256)
+            path.write_bytes(data[: odd.choice([len(data), len(data), odd.randrange(400)])])
         outcome = outcome_of(path, odd.choice([None, None, None, "all", "trajectory=0"]))
         if isinstance(outcome, ShoalError):
             assert all(outcome.args), n

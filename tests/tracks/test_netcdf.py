@@ -145,6 +145,12 @@ class TestNetcdf:
         lat = self.lat(["obs"], [0, 0, 0], valid_min="south")
         assert len(read_track(self.single(netcdf, lat=lat)).time) == 3
 
+    def test_a_time_beyond_the_year_9999_is_refused_with_its_index(self, netcdf):
+        time = self.time(["obs"], [0.0, 60.0, 1e15])
+        where, problem, _ = refusal(self.single(netcdf, time=time))
+        assert where.endswith("track.nc[2]")
+        assert "is no unix time in the years 1 to 9999" in problem
+
     def test_times_in_32_bits_are_refused_with_the_reason(self, netcdf):
         days = np.array([27000 + i / 1440 for i in range(3)], np.float32)
         path = self.single(netcdf, time=self.time(["obs"], days, "days since 1950-01-01"))

@@ -103,7 +103,7 @@ class TestAis:
     def test_it_needs_pyais(self, tmp_path, monkeypatch):
         path = write(tmp_path, "track.nmea", *map(FORMS["tag block"], range(9)))
         monkeypatch.setitem(sys.modules, "pyais", None)
-        with pytest.raises(MissingExtraError, match=r"shoal\[maritime\]"):
+        with pytest.raises(MissingExtraError, match=r"pip install '\.\[maritime\]'"):
             read_track(path)
 
 

@@ -92,12 +92,12 @@ class TestMissingExtra:
     def test_projecting_needs_pyproj(self, tmp_path, monkeypatch):
         path = eastward(tmp_path, [0.0, 0.001])
         monkeypatch.setitem(sys.modules, "pyproj", None)
-        with pytest.raises(MissingExtraError, match=r"shoal\[maritime\]"):
+        with pytest.raises(MissingExtraError, match=r"pip install '\.\[maritime\]'"):
             read_track(path)
 
     def test_netcdf_needs_netcdf4(self, tmp_path, monkeypatch):
         monkeypatch.setitem(sys.modules, "netCDF4", None)
-        with pytest.raises(MissingExtraError, match=r"shoal\[xarray\]"):
+        with pytest.raises(MissingExtraError, match=r"pip install '\.\[xarray\]'"):
             read_track(write(tmp_path, "track.nc", "anything"))
 
 

@@ -402,3 +402,56 @@ def test_frames_of_the_page_are_those_of_the_engine(open_page, replay, record):
     x = json.loads(page.evaluate("JSON.stringify(Array.from(new Float32Array(shoal.frame().slice(84, 84 + 200))))"))
     kept = next(iter(record.trajectories.values()))
     assert x == pytest.approx(list(kept.x[-1]), rel=1e-6)
+
+
+class TestKeyboard:
+    """Fields take text, and Tab leads through all controls (WCAG 2.1.1, 2.1.2)."""
+
+    CONTROLS = """() => [...document.querySelectorAll("button, input, select, summary, a[href], [tabindex]")]
+        .filter((each) => each.checkVisibility() && !each.matches(":disabled") && each.tabIndex >= 0)
+        .map((each) => each.type === "radio" ? `radio ${each.name}` : (each.dataset.stop ??= String(Math.random())))"""
+    FOCUSED = """() => document.activeElement.type === "radio"
+        ? `radio ${document.activeElement.name}` : document.activeElement.dataset.stop ?? null"""
+
+    def test_a_field_takes_what_is_typed_and_lets_tab_go(self, address, open_page):
+        page = open_page(address)
+        pause(page)
+        step = page.evaluate("shoal.step()")
+        seed = page.locator("#seed")
+        seed.click()
+        for keys, value in (("Control+a", "1"), ("4", "4"), ("2", "42"), ("ArrowUp", "43"), ("Backspace", "4")):
+            page.keyboard.press(keys)
+            assert seed.input_value() == value
+        assert page.evaluate("shoal.step()") == step  # digits and arrows are the field's, not the page's
+        page.keyboard.press("Tab")
+        assert not seed.evaluate("field => field === document.activeElement")
+        page.keyboard.press("Shift+Tab")
+        assert seed.evaluate("field => field === document.activeElement")
+        page.keyboard.press("Enter")
+        page.wait_for_function("() => document.getElementById('about').innerText.includes('seed 4')")
+
+    def test_every_number_field_does(self, address, open_page):
+        page = open_page(address)
+        pause(page)
+        page.locator("summary", has_text="Parameters").click()
+        fields = page.locator("input[type=number]:visible")
+        assert fields.count() > 5
+        for number in range(fields.count()):
+            field = fields.nth(number)
+            field.focus()
+            page.keyboard.press("Control+a")
+            page.keyboard.type("1")
+            assert field.input_value() == "1"
+
+    def test_tab_leads_through_all_controls_and_out(self, address, open_page):
+        page = open_page(address)
+        pause(page)
+        page.locator("summary", has_text="Parameters").click()
+        controls = set(page.evaluate(self.CONTROLS))
+        page.evaluate("document.activeElement.blur()")
+        reached = set()
+        for _ in range(2 * len(controls)):
+            page.keyboard.press("Tab")
+            reached.add(page.evaluate(self.FOCUSED))
+        assert len(controls) > 20
+        assert controls <= reached

@@ -280,9 +280,7 @@ class TestServing:
 
     def test_without_the_extra_it_says_what_to_install(self, monkeypatch):
         monkeypatch.setattr(server, "find_spec", lambda name: None if name == "uvicorn" else object())
-        with pytest.raises(
-            MissingExtraError, match=r"uvicorn: is not installed.*\n  fix: pip install 'shoal\[viewer\]'"
-        ):
+        with pytest.raises(MissingExtraError, match=r"uvicorn: is not installed.*\n  fix: pip install '\.\[viewer\]'"):
             page_app("")
 
     def test_one_page_is_served_by_itself(self):

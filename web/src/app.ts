@@ -41,10 +41,10 @@ export class App implements Listener {
   start(source: Source): void {
     this.source = source;
     byId("transport").replaceWith(this.transport.root);
-    byId("retry").onclick = () => this.retry();
-    byId("theme").onclick = () => this.switchTheme();
-    byId("help-open").onclick = () => this.help();
-    byId("help-close").onclick = () => byId<HTMLDialogElement>("help").close();
+    byId("retry").onclick = () => { this.retry(); };
+    byId("theme").onclick = () => { this.switchTheme(); };
+    byId("help-open").onclick = () => { this.help(); };
+    byId("help-close").onclick = () => { byId<HTMLDialogElement>("help").close(); };
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.refresh());
     new ResizeObserver(() => (this.uncounted = true)).observe(document.body);
     listen(this.keys());

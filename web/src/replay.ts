@@ -36,7 +36,7 @@ export class ReplaySource implements Source {
     this.listener.hello({ type: "hello", runs: 1, recording: false, speeds: SPEEDS, strategies: [] });
     this.listener.scene(0, this.scene);
     if (this.frames.length === 0) {
-      this.listener.failure({ type: "error", message: "this record kept no frames\n  fix: record with --frames-every" });
+      this.listener.failure({ type: "error", message: "this record kept no frames\n  fix: record with --every" });
       return;
     }
     this.show(0);

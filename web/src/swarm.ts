@@ -52,10 +52,10 @@ export class SwarmControls {
     this.targetSpeed = slider("Target speed", "target-speed", (value) => this.change({ target_speed: value }));
     this.fast = slider("Fast buoys", "fast", (value) => this.change({ fast: value }));
     for (const each of hello.strategies) this.strategy.append(el("option", { value: each.name, title: each.summary }, each.name));
-    this.strategy.onchange = () => this.change({ strategy: this.strategy.value });
-    this.joins.onchange = () => (this.fleet = Number(this.joins.value));
-    this.restart.onclick = () => this.startAgain();
-    this.seed.onkeydown = (event) => event.key === "Enter" && this.startAgain();
+    this.strategy.onchange = () => { this.change({ strategy: this.strategy.value }); };
+    this.joins.onchange = () => { this.fleet = Number(this.joins.value); };
+    this.restart.onclick = () => { this.startAgain(); };
+    this.seed.onkeydown = (event) => { if (event.key === "Enter") this.startAgain(); };
     this.fields.append(
       this.toolButtons(), this.k.root, this.targetSpeed.root, this.fast.root,
       el("label", { class: "row", for: "strategy" }, el("span", {}, "Strategy"), this.strategy), this.summary,
@@ -159,16 +159,16 @@ export class SwarmControls {
     if (about.choices) {
       input = el("select", { id }, ...about.choices.map((choice) => el("option", { value: choice }, choice)));
       input.value = String(value);
-      input.onchange = () => change(input.value);
+      input.onchange = () => { change(input.value); };
     } else if (about.type.startsWith("bool")) {
       const box = (input = el("input", { id, type: "checkbox" }));
       box.checked = Boolean(value);
-      box.onchange = () => change(box.checked);
+      box.onchange = () => { change(box.checked); };
     } else {
       const whole = about.type.startsWith("int");
       const number = (input = el("input", { id, type: "number", step: whole ? 1 : "any" }));
       number.value = String(typeof value === "number" ? Number(value.toPrecision(6)) : value);
-      number.onchange = () => number.value !== "" && change(Number(number.value));
+      number.onchange = () => { if (number.value !== "") change(Number(number.value)); };
     }
     return el(
       "label", { class: "row", for: id, title: about.description },
@@ -179,7 +179,7 @@ export class SwarmControls {
   private toolButtons(): HTMLElement {
     const choices = TOOLS.map((tool, n) => {
       const input = el("input", { type: "radio", name: "tool", value: tool, id: `tool-${tool}` });
-      input.onchange = () => this.choose(tool);
+      input.onchange = () => { this.choose(tool); };
       return el("label", { title: `${TOOL_WORDS[tool][1]} (key ${n + 1})` }, input, el("span", {}, TOOL_WORDS[tool][0]));
     });
     return el(

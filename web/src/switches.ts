@@ -24,7 +24,7 @@ export class Switches {
     for (const { name, words, key } of SWITCHES) {
       const input = el("input", { type: "checkbox", role: "switch", id: `show-${name}` });
       input.checked = this.look[name];
-      input.onchange = () => this.set(name, input.checked);
+      input.onchange = () => { this.set(name, input.checked); };
       this.inputs.set(name, input);
       list.append(el("label", { title: `${words} (${key})` }, input, el("span", {}, words), el("kbd", {}, key)));
     }

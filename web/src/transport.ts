@@ -39,13 +39,13 @@ export class Transport {
       el("div", { class: "scrubbing" }, this.scrub, this.clock),
       el("label", { class: "speed", title: "Speed, times real time ([ and ])" }, el("span", {}, "Speed"), this.speed, this.times),
     );
-    this.restart.onclick = () => this.send({ do: "restart" });
-    this.back.onclick = () => this.stepBy(-1);
-    this.forward.onclick = () => this.stepBy(1);
-    this.play.onclick = () => this.toggle();
-    this.newest.onclick = () => this.toNewest();
-    this.scrub.oninput = () => this.seekSoon(Number(this.scrub.value));
-    this.speed.oninput = () => this.send({ do: "speed", value: this.speeds[Number(this.speed.value)] });
+    this.restart.onclick = () => { this.send({ do: "restart" }); };
+    this.back.onclick = () => { this.stepBy(-1); };
+    this.forward.onclick = () => { this.stepBy(1); };
+    this.play.onclick = () => { this.toggle(); };
+    this.newest.onclick = () => { this.toNewest(); };
+    this.scrub.oninput = () => { this.seekSoon(Number(this.scrub.value)); };
+    this.speed.oninput = () => { this.send({ do: "speed", value: this.speeds[Number(this.speed.value)] }); };
     this.times.textContent = "–";
   }
 

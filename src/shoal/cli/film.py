@@ -6,11 +6,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
+from shoal.cli.older import opened
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler, tell_of_compiling
-from shoal.cli.whole import MaybeWhole, Whole
+from shoal.cli.whole import MaybeNumber, MaybeWhole, Whole
 from shoal.core.errors import ScenarioError
+from shoal.core.text import cut
 
 if TYPE_CHECKING:
     from shoal.record.record import Record
@@ -29,8 +31,8 @@ def film(
     steps: MaybeWhole = None,
     every: MaybeWhole = None,
     step: MaybeWhole = None,
-    seconds: float | None = None,
-    fps: float | None = None,
+    seconds: MaybeNumber = None,
+    fps: MaybeNumber = None,
     size: str | None = None,
     run: Whole = 0,
     links: Annotated[bool, _No] = False,
@@ -120,12 +122,10 @@ def film(
 
 
 def _opened(folder: str, **changes: Any) -> "Record":
-    from shoal.record.files import open_record
-
     changed = [f"--{'set' if name == 'assignments' else name}" for name, value in changes.items() if value is not None]
     if changed:
         raise ScenarioError(changed[0], "changes a scenario, and a record is done", "film the scenario instead")
-    return open_record(folder)
+    return opened(folder)
 
 
 def _filmed(
@@ -150,9 +150,9 @@ def _size(text: str | None) -> tuple[int | None, int | None]:
     """WIDTHxHEIGHT or WIDTH."""
     if text is None:
         return None, None
-    numbers = re.fullmatch(r"(\d+)(?:x(\d+))?", text.strip().lower())
+    numbers = re.fullmatch(r"([0-9]{1,5})(?:x([0-9]{1,5}))?", text.lower())
     if not numbers:
-        raise ScenarioError(f"--size {text}", "is no size", "write WIDTHxHEIGHT such as 1280x720, or WIDTH alone")
+        raise ScenarioError(f"--size {cut(text)}", "is no size", "write WIDTHxHEIGHT such as 1280x720, or WIDTH alone")
     return int(numbers[1]), int(numbers[2]) if numbers[2] else None
 
 

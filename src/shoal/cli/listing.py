@@ -1,14 +1,14 @@
 """shoal presets, shoal strategies: what there is."""
 
 import json
-import sys
 from typing import Annotated
 
 from cyclopts import Parameter
-from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
+from shoal.cli.console import results_console, small_print, styled
+from shoal.cli.output import write
 from shoal.cli.progress import note
 
 
@@ -17,7 +17,7 @@ def presets() -> None:
     from shoal.scenario.load import load
     from shoal.scenario.load import presets as names
 
-    _print_rows([(name, escape(load(name).description)) for name in names()])
+    _print_rows([(name, styled(load(name).description, "")) for name in names()])
 
 
 def strategies(*, json_: Annotated[bool, Parameter(name="--json", negative=())] = False) -> None:
@@ -50,18 +50,13 @@ def strategies(*, json_: Annotated[bool, Parameter(name="--json", negative=())] 
             }
             for each in known
         ]
-        sys.stdout.write(json.dumps(rows) + "\n")
+        write(json.dumps(rows) + "\n")
     else:
-        _print_rows(
-            [
-                (each.name, f"{escape(each.summary)}\n[dim]{escape(each.reference or each.source)}[/dim]")
-                for each in known
-            ]
-        )
+        _print_rows([(each.name, small_print(each.summary, each.reference or each.source)) for each in known])
 
 
-def _print_rows(rows: list[tuple[str, str]]) -> None:
+def _print_rows(rows: list[tuple[str, Text]]) -> None:
     table = Table(box=None, padding=(0, 2, 0, 0), show_header=False)
     for name, text in rows:
         table.add_row(name, text)
-    Console(file=sys.stdout, highlight=False).print(table)
+    results_console().print(table)

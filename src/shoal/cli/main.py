@@ -1,20 +1,22 @@
 """The command line: one file per verb, imported when called, so that `shoal --help` is instant."""
 
-import os
 import sys
 
 from cyclopts import App, CycloptsError
 
+from shoal.cli.output import CANNOT_PRINT, CannotPrintError, drop_stdout, guarded_stdout, silence_stderr, tell
+from shoal.cli.signals import exit_code, heed_signals
 from shoal.core.errors import ShoalError
+from shoal.core.text import readable
 from shoal.version import VERSION
 
 BAD_INPUT = 2
-INTERRUPTED = 130
 
 app = App(
     name="shoal",
     version=VERSION,
-    help="Design, test and deploy swarms that search for and track moving targets at sea.",
+    help="Simulate and compare swarms of buoys that search for and track moving targets at sea. The presets are in an "
+    "arena of 20 m x 20 m; `shoal scenario oceans2020` prints one, every field explained.",
     help_format="plaintext",
     suppress_keyboard_interrupt=False,  # run_command says what an interrupt left behind
 )
@@ -37,31 +39,51 @@ app.command("shoal.cli.scenario:schema", name="schema", help="Print the JSON Sch
 
 
 def main() -> None:
-    """Run the command line and exit: 0 fine, 2 bad input, 130 interrupted."""
+    """Run the command line and exit; see shoal.__main__, which does it with an eye on Ctrl-C."""
+    heed_signals()
     sys.exit(run_command(sys.argv[1:]))
 
 
 def run_command(tokens: list[str]) -> int:
     """Run one command and return its exit code; every error of the user is one message on stderr."""
+    if sys.stderr is None:
+        silence_stderr()
     try:
-        app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
+        if any("\0" in token for token in tokens):
+            raise ShoalError("command line", "holds a NUL", "leave it out")
+        with guarded_stdout():
+            app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
     except CycloptsError as error:
-        _complain(f"{_one_line(error)}\n  fix: see `shoal {' '.join(tokens[:1])} --help`")
+        tell(readable(f"{_one_line(error)}\n  fix: see `shoal{_verb(tokens)} --help`"))
         return BAD_INPUT
     except ShoalError as error:
-        _complain(str(error))
+        tell(str(error))
         return BAD_INPUT
-    except KeyboardInterrupt:
-        _complain("interrupted; nothing was left half-written")
-        return INTERRUPTED
+    except KeyboardInterrupt as error:
+        tell("interrupted; nothing was left half-written")
+        return exit_code(error)
     except BrokenPipeError:  # the reader of our output left, as `| head` does
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        drop_stdout()
+    except CannotPrintError as error:
+        drop_stdout()
+        tell(f"the result cannot be printed: {error}\n  fix: send it where there is room, or to /dev/null")
+        return CANNOT_PRINT
+    except OSError as error:
+        told = error.filename if isinstance(error.filename, str) else "the system"
+        tell(str(ShoalError(told, error.strerror or str(error), "name a file or folder that you may use")))
+        return BAD_INPUT
+    except RecursionError:
+        tell("an input is nested too deeply\n  fix: a scenario is four levels deep at most")
+        return BAD_INPUT
+    except MemoryError:
+        tell("there is not enough memory\n  fix: ask for less: fewer agents, runs, frames or combinations")
+        return BAD_INPUT
     return 0
+
+
+def _verb(tokens: list[str]) -> str:
+    return f" {tokens[0]}" if tokens and tokens[0].isidentifier() and len(tokens[0]) < 20 else ""
 
 
 def _one_line(error: CycloptsError) -> str:
     return " ".join(str(error).split())
-
-
-def _complain(message: str) -> None:
-    sys.stderr.write(f"shoal: {message}\n")

@@ -2,10 +2,10 @@
 
 import keyword
 import re
-import sys
 from importlib import resources
 from pathlib import Path
 
+from shoal.cli.output import write
 from shoal.core.errors import StrategyError
 
 
@@ -29,7 +29,7 @@ def new_strategy(name: str, /, *, folder: Path = Path()) -> None:
     words = {"NAME": name, "MODULE": module, "CLASS": module.title().replace("_", "")}
     texts = {folder / f"{module}.py": "strategy.txt", folder / f"test_{module}.py": "test.txt"}
     _write({file: _filled(template, words) for file, template in texts.items()})
-    sys.stdout.write(
+    write(
         f"wrote {' and '.join(str(file) for file in texts)}\n"
         f"try:  shoal run oceans2020 --strategy {folder / f'./{module}.py'} --steps 20000\n"
         f"test: pytest {folder / f'test_{module}.py'}\n"

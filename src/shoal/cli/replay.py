@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Literal
 
+from shoal.cli.older import opened
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler
 from shoal.cli.whole import Whole
@@ -23,7 +24,7 @@ def replay(
     source
         A record (folder made by --out); or a preset's name or a TOML file, which is run first.
     out
-        The HTML file to write; one of this name is replaced.
+        The HTML file to write; a page of this name that Shoal made is replaced.
     frames
         Frames in the page, at most.
     part
@@ -31,20 +32,20 @@ def replay(
     """
     load_compiler()
     from shoal.core.errors import ScenarioError
-    from shoal.core.files import write_whole
-    from shoal.record.files import open_record
+    from shoal.core.files import check_file, write_whole
     from shoal.run.simulate import simulate
     from shoal.scenario.load import load
     from shoal.viewer.replay import replay_page
 
     if frames < 1:
         raise ScenarioError("--frames", f"is {frames}", "ask for 1 or more")
+    check_file(out, ours=True)
     if Path(source).is_dir():
-        record = open_record(source)
+        record = opened(source)
     else:
         scenario = load(source)
         every = max(1, -(-scenario.steps // frames)) if part == "all" else None
         with progress_bar(f"{scenario.name}, {scenario.steps:,} steps") as progress:
             record = simulate(scenario, every=every, progress=progress)
-    write_whole(out, replay_page(record, frames=frames, part=part).encode())
+    write_whole(out, replay_page(record, frames=frames, part=part).encode(), ours=True)
     note(f"page: {out} ({out.stat().st_size / 1e6:.1f} MB)")

@@ -1,11 +1,11 @@
 """shoal reproduce: a paper's figures and claims from our own runs."""
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from shoal.cli.output import write
 from shoal.cli.progress import note
 from shoal.cli.sweep_progress import sweep_progress
 from shoal.cli.whole import MaybeWhole
@@ -29,7 +29,7 @@ def reproduce(
     paper
         oceans2020 or aamas2020.
     quick
-        20,000 steps, 2 seeds and fewer k instead of 100,000 steps and 5 seeds: a minute instead of some ten.
+        20,000 steps, 2 seeds and fewer k instead of 100,000 steps and 5 seeds: minutes instead of half an hour.
     out
         Folder of the report and of all runs; default reproduction-PAPER, with --quick reproduction-PAPER-quick.
     jobs
@@ -46,21 +46,21 @@ def reproduce(
     if failed:
         note(f"{len(failed)} runs failed, the first: {failed[0]['error']}\n  fix: mend it, then the same command again")
     _print_claims(found)
-    sys.stdout.write(f"report: {folder / 'report.html'}\n")
+    write(f"report: {folder / 'report.html'}\n")
 
 
 def _print_claims(found: "Reproduction") -> None:
-    from rich.console import Console
     from rich.table import Table
-    from rich.text import Text
 
-    console = Console(file=sys.stdout, highlight=False)
+    from shoal.cli.console import results_console, small_print
+
+    console = results_console()
     table = Table(box=None, padding=(0, 2, 0, 0))
     for title in ("", "verdict", "claim, and what was measured"):
         table.add_column(title)
     for claim in found.claims:
-        verdict = Text(claim.verdict).append(f"\n{claim.cases.replace(', ', chr(10))}", style="dim")
-        table.add_row(claim.id, verdict, Text(claim.statement).append(f"\n{claim.measured}", style="dim"))
+        verdict = small_print(claim.verdict, claim.cases.replace(", ", "\n"))
+        table.add_row(claim.id, verdict, small_print(claim.statement, claim.measured))
     console.print(table)
     length = f"{found.seeds} seeds of {found.steps:,} steps"
     console.print(f"{found.paper}, {length}; in brackets 95 % intervals; {found.seconds:.0f} s", style="dim")

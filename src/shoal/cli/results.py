@@ -1,12 +1,13 @@
 """shoal results, shoal plot: what a sweep found."""
 
 import json
-import sys
 from pathlib import Path
 from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from shoal.cli.older import tell_of_version
+from shoal.cli.output import write
 from shoal.cli.progress import note
 
 
@@ -35,28 +36,42 @@ def results(
     parquet
         Write every run to this parquet file instead.
     """
+    from shoal.core.errors import ScenarioError
+    from shoal.core.files import check_file
     from shoal.experiments.results import aggregate, read_rows, to_csv, write_parquet
 
+    kinds = [name for name, given in (("--csv", csv), ("--json", json_), ("--parquet", parquet)) if given]
+    if len(kinds) > 1:
+        raise ScenarioError(" and ".join(kinds), "are different outputs", "choose one of them")
+    if parquet:
+        check_file(parquet, ours=True)
     fields, rows = read_rows(folder)
+    _tell_of(rows)
     if parquet:
         write_parquet(rows, parquet)
         note(f"{len(rows)} runs: {parquet}")
     elif csv and by is None:
-        sys.stdout.write(to_csv(rows))
+        write(to_csv(rows))
     elif json_ and by is None:
-        sys.stdout.write(json.dumps(rows) + "\n")
+        write(json.dumps(rows) + "\n")
     else:
         groups = aggregate(rows, by.split(",") if by else fields)
         if csv:
-            sys.stdout.write(to_csv(groups))
+            write(to_csv(groups))
         elif json_:
-            sys.stdout.write(json.dumps(groups) + "\n")
+            write(json.dumps(groups) + "\n")
         else:
             _print_groups(groups, by.split(",") if by else fields)
 
 
 def plot(
-    folder: Path, /, *, x: str | None = None, y: str = "time_on_target", hue: str | None = None, out: Path | None = None
+    folder: Path,
+    /,
+    *,
+    x: str | None = None,
+    y: str = "time_on_target",
+    hue: str | None = None,
+    figure: Annotated[Path | None, Parameter(name=["--figure", "--out"])] = None,
 ) -> None:
     """Draw one metric of a sweep against a field, with bands of the 95 % interval.
 
@@ -70,14 +85,31 @@ def plot(
         Metric on the vertical axis.
     hue
         Field that makes one curve per value; default the next field that varies.
-    out
+    figure
         Picture to draw (.png, .svg or .pdf); default plot.png in the folder.
     """
+    from shoal.drawing.files import check_figure
+    from shoal.experiments.results import read_rows
     from shoal.plot import curves, save
 
-    target = out or folder / "plot.png"
+    _tell_of(read_rows(folder)[1])
+    target = figure or folder / "plot.png"
+    check_figure(target)
     save(curves(folder, x=x, y=y, hue=hue), target)
     note(f"figure: {target}")
+
+
+def _tell_of(rows: list[dict[str, Any]]) -> None:
+    """Say what the numbers do not: which results version they are of, and which runs gave none."""
+    if not rows:
+        note("no run has ended yet; the same shoal sweep command goes on")
+        return
+    tell_of_version(rows[0]["results_version"])
+    failed = [row["error"] for row in rows if row["status"] == "failed"]
+    if failed:
+        many = f"all {len(rows)} runs" if len(failed) == len(rows) else f"{len(failed)} of {len(rows)} runs"
+        note(f"{many} failed and gave no numbers; the first: {failed[0]}")
+        note("mend it, then the same shoal sweep command with --retry-failed")
 
 
 def _print_groups(groups: list[dict[str, Any]], by: list[str]) -> None:
@@ -85,6 +117,8 @@ def _print_groups(groups: list[dict[str, Any]], by: list[str]) -> None:
 
     from shoal.cli.console import results_console
 
+    if not groups:
+        return
     table = Table(box=None, padding=(0, 2, 0, 0))
     for name in (*by, "runs", "time on target", "Xi", "engaged"):
         table.add_column(name, justify="right", no_wrap=True)

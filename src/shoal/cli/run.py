@@ -1,16 +1,17 @@
 """shoal run: one scenario, R runs, a table of results."""
 
 import json
-import sys
 from pathlib import Path
 from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from shoal.cli.options import edited_table
+from shoal.cli.options import check_most, edited_table
+from shoal.cli.output import write
+from shoal.cli.places import check_places
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler, tell_of_compiling
-from shoal.cli.whole import MaybeWhole, Whole
+from shoal.cli.whole import MaybeSteps, MaybeWhole, Whole
 
 
 def run(
@@ -21,7 +22,7 @@ def run(
     fast: MaybeWhole = None,
     agents: MaybeWhole = None,
     target_speed: str | None = None,
-    steps: MaybeWhole = None,
+    steps: MaybeSteps = None,
     seed: MaybeWhole = None,
     runs: Whole = 1,
     jobs: MaybeWhole = None,
@@ -49,7 +50,7 @@ def run(
     target_speed
         Speed of the waypoint targets: m/s, or with a unit, such as "6 kn".
     steps
-        Time-steps of a run.
+        Time-steps of a run, or its duration, such as "2 h".
     seed
         Seed of all chance; run r of two scenarios with one seed shares its target path and its starts.
     runs
@@ -86,10 +87,8 @@ def run(
         "steps": steps,
         "seed": seed,
     }
-    if figure:
-        from shoal.drawing.files import figure_format
-
-        figure_format(figure)  # refused before the run, not after
+    check_most(runs=runs, jobs=jobs)
+    check_places(out, figure)
     table = edited_table(scenario, changes, assignments or [], target_track, track_id)
     chosen = scenario_from(table, where=scenario)
     asked = read_table(scenario).get("network", {}).get("neighbors")
@@ -100,16 +99,16 @@ def run(
         record = simulate(chosen, runs=runs, jobs=jobs, every=every, out=out, progress=progress)
     for each in record.provenance["notes"]:
         note(each)
+    if out:
+        note(f"record: {out} (shoal show {out})")
+    if json_:
+        write(json.dumps(record.summary()) + "\n")
+    else:
+        from shoal.cli.table import print_record
+
+        print_record(record)
     if figure:
         from shoal.plot import save, summary
 
         save(summary(record), figure)
         note(f"figure: {figure}")
-    if out:
-        note(f"record: {out} (shoal show {out})")
-    if json_:
-        sys.stdout.write(json.dumps(record.summary()) + "\n")
-    else:
-        from shoal.cli.table import print_record
-
-        print_record(record)

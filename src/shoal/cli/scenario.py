@@ -1,8 +1,8 @@
 """shoal scenario, check, schema: write, prove and describe scenario files."""
 
 import json
-import sys
 
+from shoal.cli.output import write
 from shoal.cli.progress import note
 
 
@@ -16,7 +16,7 @@ def scenario(preset: str, /) -> None:
     """
     from shoal.scenario.load import load, preset_text, to_toml
 
-    sys.stdout.write(preset_text(preset) or to_toml(load(preset)))
+    write(preset_text(preset) or to_toml(load(preset)))
 
 
 def check(file: str, /) -> None:
@@ -33,7 +33,7 @@ def check(file: str, /) -> None:
     loaded = load(file)
     for each in notes_of(loaded):
         note(each)
-    sys.stdout.write(
+    write(
         f"{file}: fine ({loaded.agents} agents, k = {loaded.network.neighbors}, {loaded.steps:,} steps, "
         f"scenario {loaded.hash})\n"
     )
@@ -43,4 +43,4 @@ def schema() -> None:
     """Print the JSON Schema of scenario files, for editors."""
     from shoal.scenario.schema import json_schema
 
-    sys.stdout.write(json.dumps(json_schema(), indent=1) + "\n")
+    write(json.dumps(json_schema(), indent=1) + "\n")

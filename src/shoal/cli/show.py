@@ -1,12 +1,13 @@
 """shoal show: the table and the figure of a saved record."""
 
 import json
-import sys
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
+from shoal.cli.older import opened
+from shoal.cli.output import write
 from shoal.cli.progress import note
 
 
@@ -29,15 +30,18 @@ def show(
         Print one JSON object and nothing else.
     """
     from shoal.cli.table import print_record
-    from shoal.record.files import open_record
 
-    opened = open_record(record)
+    if figure:
+        from shoal.drawing.files import check_figure
+
+        check_figure(figure)
+    known = opened(record)
+    if json_:
+        write(json.dumps(known.summary()) + "\n")
+    else:
+        print_record(known)
     if figure:
         from shoal.plot import save, summary
 
-        save(summary(opened), figure)
+        save(summary(known), figure)
         note(f"figure: {figure}")
-    if json_:
-        sys.stdout.write(json.dumps(opened.summary()) + "\n")
-    else:
-        print_record(opened)

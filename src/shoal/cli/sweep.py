@@ -1,16 +1,18 @@
 """shoal sweep: many scenarios, many runs, a store that can be interrupted and resumed."""
 
 import os
-import sys
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter
 
+from shoal.cli.output import write
 from shoal.cli.progress import note
 from shoal.cli.startup import load_compiler
 from shoal.cli.sweep_progress import sweep_progress
-from shoal.cli.whole import MaybeWhole, Whole
+from shoal.cli.whole import MaybeNumber, MaybeSteps, MaybeWhole, Whole
+
+_MOST_RUNS = 10_000_000
 
 
 def sweep(
@@ -23,10 +25,10 @@ def sweep(
     jobs: MaybeWhole = None,
     executor: Literal["local", "dask"] = "local",
     scheduler: str | None = None,
-    steps: MaybeWhole = None,
+    steps: MaybeSteps = None,
     seed: MaybeWhole = None,
     assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
-    until_ci: float | None = None,
+    until_ci: MaybeNumber = None,
     max_runs: Whole = 50,
     independent: Annotated[bool, Parameter(negative=())] = False,
     retry_failed: Annotated[bool, Parameter(negative=())] = False,
@@ -52,7 +54,7 @@ def sweep(
     scheduler
         Address of a running Dask scheduler; without it, worker processes are started here.
     steps
-        Time-steps of a run.
+        Time-steps of a run, or its duration, such as "2 h".
     seed
         Seed of all chance.
     assignments
@@ -69,7 +71,7 @@ def sweep(
         Print the design, the number of runs and an estimate of the time; run nothing.
     """
     load_compiler()
-    from shoal.cli.options import check_positive, given_changes
+    from shoal.cli.options import as_options, check_asked, check_positive, given_changes
     from shoal.core.errors import ScenarioError
     from shoal.experiments.cells import make_cells
     from shoal.experiments.executors import in_threads, on_dask
@@ -79,14 +81,21 @@ def sweep(
 
     design = _design(scenario, vary or [], runs)
     check_positive(runs=design.runs, jobs=jobs, max_runs=max_runs, until_ci=until_ci)
+    if scheduler and executor != "dask":
+        raise ScenarioError("--scheduler", "is of Dask", "add --executor dask, or leave it out")
+    options = [(f"--{name}", name) for name, value in (("steps", steps), ("seed", seed)) if value is not None]
+    varied = as_options("--vary", vary or []) or [(f"{scenario} {field}", field) for field in design.fields]
+    check_asked(design.scenario, [*options, *as_options("--set", assignments or []), *varied])
     changes = given_changes(assignments, steps=steps, seed=seed)
     cells = make_cells(design, changes, independent=independent)
     total = len(cells) * design.runs
+    if total > _MOST_RUNS:
+        raise ScenarioError("--runs", f"makes {total:,} runs in all", f"ask for {_MOST_RUNS:,} at most")
     if dry_run:
         for cell in cells:
-            sys.stdout.write(", ".join(f"{name}={value}" for name, value in cell.point.items()) + "\n")
+            write(", ".join(f"{name}={value}" for name, value in cell.shown.items()) + "\n")
         seconds = probe(cells, design.runs, jobs or os.cpu_count() or 1)
-        sys.stdout.write(f"{len(cells)} combinations x {design.runs} runs = {total} runs, about {seconds:.0f} s\n")
+        write(f"{len(cells)} combinations x {design.runs} runs = {total} runs, about {seconds:.0f} s\n")
         return
     if out is None:
         raise ScenarioError("--out", "is missing", "name the folder of the store: --out DIR")

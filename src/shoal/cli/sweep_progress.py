@@ -1,16 +1,15 @@
 """Progress of a sweep: runs done, runs per second, time left, failures."""
 
 import math
-import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from rich.console import Console
 from rich.live import Live
 from rich.text import Text
 
+from shoal.cli.console import progress_console
 from shoal.cli.progress import SECONDS_BETWEEN_LINES, note
 from shoal.experiments.sweep import Progress
 
@@ -30,7 +29,7 @@ def sweep_progress(store: Path | None) -> Iterator[Callable[[Progress], None]]:
 @contextmanager
 def _reporter() -> Iterator[Callable[[Progress], None]]:
     """One living line on a terminal, a line now and then in a log."""
-    console = Console(file=sys.stderr, highlight=False)
+    console = progress_console()
     if console.is_terminal:
         with Live(console=console, refresh_per_second=4, transient=True) as live:
             yield lambda progress: live.update(Text(describe(progress)))

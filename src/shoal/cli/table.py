@@ -1,13 +1,12 @@
 """A record as a table that fits a terminal."""
 
-import sys
 from collections.abc import Mapping
 from typing import Any
 
-from rich.console import Console
 from rich.table import Table
-from rich.text import Text
 
+from shoal.cli.console import results_console, styled
+from shoal.core.text import plain
 from shoal.metrics.summary import METRICS
 from shoal.record.record import Record
 from shoal.record.statistics import Estimate
@@ -30,15 +29,15 @@ _OF_TARGETS = ("time_on_target", "first_detection", "reacquisition")
 
 def print_record(record: Record) -> None:
     """Print what was run, every metric with its interval, and where it comes from."""
-    console = Console(file=sys.stdout, highlight=False)
+    console = results_console()
     scenario, facts = record.scenario, record.facts
     fleets = " + ".join(
-        f"{count} {name} ({speed:g} m/s{_joining(scenario, name)})"
+        f"{count} {plain(name)} ({speed:g} m/s{_joining(scenario, name)})"
         for name, count, speed in zip(facts.fleets, facts.counts, facts.max_speeds, strict=True)
     )
     targets = ", ".join(_target(target) for target in scenario["targets"])
     runs = len(record.tallies)
-    console.print(f"[bold]{scenario['name']}[/bold]: {fleets}, k = {degree_text(scenario)}")
+    console.print(styled(plain(scenario["name"]), "bold") + styled(f": {fleets}, k = {degree_text(scenario)}", ""))
     console.print(f"strategy {strategy_text(scenario)}; target {targets}")
     console.print(
         f"{runs} run{'s' * (runs > 1)} of {scenario['steps']:,} steps of {scenario['time_step']:g} s, "
@@ -56,7 +55,7 @@ def print_record(record: Record) -> None:
     console.print("phi histogram, agents per step from -1 (away) to +1 (toward):")
     console.print("  " + " ".join(f"{agents:.2f}" for agents in record.phi_histogram().sum(axis=0)))
     method = "over runs" if runs > 1 else "by batch means"
-    console.print(f"[dim]intervals {method}; {record.provenance['seconds']:g} s[/dim]")
+    console.print(styled(f"intervals {method}; {record.provenance['seconds']:g} s", "dim"))
 
 
 def _add_parts(table: Table, record: Record) -> None:
@@ -64,7 +63,7 @@ def _add_parts(table: Table, record: Record) -> None:
     fleets = record.facts.fleets if len(record.facts.fleets) > 1 else ()
     by_fleet = {name: record.fleet_estimate(name) for name in _OF_FLEETS} if fleets else {}
     for fleet in fleets:
-        table.add_row(Text(f"fleet {fleet}"))
+        table.add_row(f"fleet {plain(fleet)}")
         for name, values in by_fleet.items():
             table.add_row(f"  {_label(name)}", *_cells(values[fleet]), _unit(METRICS[name].unit))
     targets = record.target_estimates()
@@ -110,4 +109,4 @@ def _target(target: dict[str, object]) -> str:
         return f"at {target['speed']:g} m/s"
     if "speed" in target:
         return f"{target['kind']} at {target['speed']:g} m/s"
-    return f"{target['kind']} {target.get('id') or ''}".strip()
+    return plain(f"{target['kind']} {target.get('id') or ''}".strip())

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
+from shoal.cli.older import opened
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler
-from shoal.cli.whole import MaybeWhole, Whole
+from shoal.cli.whole import MaybeSteps, MaybeWhole, Number, Whole
 
 if TYPE_CHECKING:
     from shoal.viewer.session import Session
@@ -25,13 +26,13 @@ def watch(
     fast: MaybeWhole = None,
     agents: MaybeWhole = None,
     target_speed: str | None = None,
-    steps: MaybeWhole = None,
+    steps: MaybeSteps = None,
     seed: MaybeWhole = None,
     strategy: str | None = None,
     target_track: str | None = None,
     track_id: str | None = None,
     assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
-    speed: float = 1.0,
+    speed: Number = 1.0,
     host: str = "127.0.0.1",
     port: Whole = 0,
     browser: bool = True,
@@ -54,7 +55,7 @@ def watch(
     target_speed
         Speed of the waypoint targets: m/s, or with a unit, such as "6 kn".
     steps
-        Time-steps of a recorded run (--out); without --out a run has no end.
+        Time-steps of a recorded run (--out), or its duration, such as "2 h"; without --out a run has no end.
     seed
         Seed of all chance.
     strategy
@@ -79,6 +80,9 @@ def watch(
     """
     load_compiler()
     from shoal.core.errors import ScenarioError
+    from shoal.viewer.server import require_libraries
+
+    require_libraries()  # missing ones are named now, not after compiling
 
     changes: dict[str, Any] = {
         "agents": agents,
@@ -161,11 +165,10 @@ def _record(session: "Session", out: Path) -> None:
 def _play_record(folder: str, host: str, port: int, browser: bool) -> None:
     from threading import Event
 
-    from shoal.record.files import open_record
     from shoal.viewer.replay import replay_page
     from shoal.viewer.server import page_app, serving
 
-    page = replay_page(open_record(folder))
+    page = replay_page(opened(folder))
     with suppress(KeyboardInterrupt), serving(page_app(page), host, port) as address:
         _announce(address, host, browser)
         Event().wait()

@@ -1,18 +1,37 @@
-"""Options that are whole numbers: 1.5 is refused, not rounded."""
+"""Options that are numbers, in plain digits: 1.5 steps are refused, not rounded; 1_0, nan and inf are no numbers."""
 
+import re
 from collections.abc import Sequence
 from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from shoal.core.text import quoted
+
+_LONGEST = 20  # digits
+
 
 def _whole(hint: Any, tokens: Sequence[Any]) -> int:
     text = tokens[0].value
-    try:
-        return int(text)
-    except ValueError:
-        raise ValueError(f"{text!r} is no whole number") from None
+    if not re.fullmatch(rf"[-+]?[0-9]{{1,{_LONGEST}}}", text):
+        raise ValueError(f"{quoted(text)} is no whole number")
+    return int(text)
+
+
+def _number(hint: Any, tokens: Sequence[Any]) -> float:
+    text = tokens[0].value
+    if not re.fullmatch(rf"[-+]?([0-9]{{1,{_LONGEST}}}\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]{{1,2}})?", text):
+        raise ValueError(f"{quoted(text)} is no number")
+    return float(text)
+
+
+def _steps(hint: Any, tokens: Sequence[Any]) -> int | str:
+    text: str = tokens[0].value
+    return text if re.fullmatch(r"[0-9.eE+-]+ *(s|min|h|d)", text) else _whole(hint, tokens)
 
 
 Whole = Annotated[int, Parameter(converter=_whole)]
 MaybeWhole = Annotated[int | None, Parameter(converter=_whole)]
+Number = Annotated[float, Parameter(converter=_number)]
+MaybeNumber = Annotated[float | None, Parameter(converter=_number)]
+MaybeSteps = Annotated[int | str | None, Parameter(converter=_steps)]  # or a duration, such as "2 h"

@@ -10,8 +10,10 @@ numba removes writes into arrays that it does not see to be an argument's. It se
 neither two, `parts.swarm.x[i] = 1.0`, nor what `part` returned: such a kernel hands the swarm to one that writes.
 """
 
+import atexit
 import hashlib
 import os
+import shutil
 import tempfile
 import warnings
 from collections.abc import Callable, Iterator
@@ -19,6 +21,8 @@ from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar, cast
+
+from shoal.compiler.private import make_private
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -101,17 +105,37 @@ def uncached(entry: Function) -> Function:
 
 @cache
 def cache_folder() -> Path:
-    """Folder of the compiled kernels of exactly these sources; $SHOAL_CACHE_DIR moves it."""
+    """Folder of the compiled kernels of exactly these sources; $SHOAL_CACHE_DIR moves it.
+
+    One that somebody else could have written is never read: what is in it would run. This process then has a folder
+    of its own, and `why_uncached` says why.
+    """
+    folder = _shared_folder()
+    try:
+        make_private(folder)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError as error:
+        _refused.append(f"{folder} cannot be used: {error.strerror}" if error.strerror else str(error))
+    own = Path(tempfile.mkdtemp(prefix="shoal-kernels-"))  # 0700
+    atexit.register(shutil.rmtree, own, ignore_errors=True)
+    return own
+
+
+def why_uncached() -> str | None:
+    """Say why compiled kernels are not kept for the next process; None if they are."""
+    cache_folder()
+    return _refused[0] if _refused else None
+
+
+_refused: list[str] = []
+
+
+def _shared_folder() -> Path:
     base = os.environ.get("SHOAL_CACHE_DIR") or os.path.join(
         os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache"), "shoal"
     )
-    folder = Path(base) / f"kernels-{sources_hash()}"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            return folder
-    except OSError:  # a read-only home: compile once per process group instead of failing
-        return Path(tempfile.gettempdir()) / f"shoal-{os.getuid() if hasattr(os, 'getuid') else 0}" / folder.name
+    return Path(base).absolute() / f"kernels-{sources_hash()}"
 
 
 @cache

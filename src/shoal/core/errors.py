@@ -4,6 +4,8 @@ import difflib
 import re
 from collections.abc import Iterable
 
+from shoal.core.text import cut, quoted, readable
+
 
 class ShoalError(ValueError):
     """Base of every error Shoal raises on purpose; the command line exits with 2 on it.
@@ -20,7 +22,7 @@ class ShoalError(ValueError):
 
     def __str__(self) -> str:
         where, problem, fix = self.args
-        return f"{where}: {problem}\n  fix: {fix}"
+        return readable(f"{cut(where)}: {problem}\n  fix: {fix}")
 
 
 class ScenarioError(ShoalError):
@@ -49,7 +51,8 @@ class MissingExtraError(ShoalError):
     @classmethod
     def of(cls, package: str, extra: str, why: str) -> "MissingExtraError":
         """Return the one sentence: what to install and why."""
-        return cls(package, f"is not installed, and {why} needs it", f"pip install 'shoal[{extra}]'")
+        fix = f"pip install '.[{extra}]', in your clone of Shoal"
+        return cls(package, f"is not installed, and {why} needs it", fix)
 
 
 class UnknownNameError(ShoalError, KeyError):
@@ -59,7 +62,9 @@ class UnknownNameError(ShoalError, KeyError):
     def of(cls, what: str, name: object, known: Iterable[str]) -> "UnknownNameError":
         """Return the error that says what there is, and what was probably meant."""
         names = list(known)
-        return cls(f"{what} {name!r}", "there is none of this name", f"{did_you_mean(str(name), names)}{_all(names)}")
+        return cls(
+            f"{what} {quoted(name)}", "there is none of this name", f"{did_you_mean(str(name), names)}{_all(names)}"
+        )
 
 
 def no_attribute(owner: str, name: str, known: Iterable[str]) -> AttributeError:
@@ -74,7 +79,7 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     Near is what is spelt alike, or else what has these initials, or else the only one that has this part.
     """
     names = list(known)
-    near = difflib.get_close_matches(name, names, n=1)
+    near = difflib.get_close_matches(name[:100], names, n=1)
     near = near or [each for each in names if len(name) > 1 and _initials(each) == name]
     near = near or [each for each in names if len(name) > 2 and name in each]
     return f"did you mean {near[0]!r}? " if len(near) == 1 else ""

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 
+from shoal.core.text import plain
+
 MOST_ROWS = 30  # shown; how many are left out is said
 
 
@@ -28,7 +30,7 @@ class Sheet:
 
     def text(self) -> str:
         """Columns side by side."""
-        table = [tuple(map(shown, row)) for row in (self.titles, *self.rows[:MOST_ROWS])]
+        table = [tuple(map(plain, row)) for row in (self.titles, *self.rows[:MOST_ROWS])]
         widths = [max(map(len, column)) for column in zip(*table, strict=True)]
         lines = [
             "  ".join(
@@ -37,7 +39,7 @@ class Sheet:
             ).rstrip()
             for row in table
         ]
-        return "\n".join(line for line in (shown(self.head), *lines, self._more(), shown(self.note)) if line)
+        return "\n".join(line for line in (plain(self.head), *lines, self._more(), plain(self.note)) if line)
 
     def html(self) -> str:
         """The same as a table; everything is escaped."""
@@ -63,10 +65,5 @@ class Sheet:
         return f' style="text-align: {side}; padding: 0.15em 0.6em"'
 
 
-def shown(text: str) -> str:
-    r"""Return a text as it can be shown: characters that steer a terminal or break a line become \x1b and alike."""
-    return "".join(each if each.isprintable() else ascii(each)[1:-1] for each in text)
-
-
 def _html(text: str) -> str:
-    return escape(shown(text))
+    return escape(plain(text))

@@ -5,17 +5,24 @@ import re
 from dataclasses import dataclass
 from typing import Annotated, Any
 
+from shoal.core.text import quoted
+
+_KNOT = 1852.0 / 3600.0  # [m/s]
+
 _TO_SI: dict[str, dict[str, float]] = {
     "m": {"m": 1.0, "km": 1000.0, "nmi": 1852.0, "NM": 1852.0, "ft": 0.3048},
-    "m/s": {"m/s": 1.0, "kn": 1852.0 / 3600.0, "kt": 1852.0 / 3600.0, "km/h": 1.0 / 3.6},
+    "m/s": {"m/s": 1.0, "kn": _KNOT, "kt": _KNOT, "km/h": 1.0 / 3.6, "knot": _KNOT, "knots": _KNOT},
+    "m/s^2": {"m/s^2": 1.0, "m/s2": 1.0, "m/s/s": 1.0, "kn/s": _KNOT, "km/h/s": 1.0 / 3.6},
     "s": {"s": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0},
     "kg": {"kg": 1.0, "t": 1000.0},
     "deg": {"deg": 1.0, "rad": 57.29577951308232},
+    "deg/s": {"deg/s": 1.0, "rad/s": 57.29577951308232, "deg/min": 1.0 / 60.0},
+    "1": {"%": 0.01},
 }
 
 _LEAST, _MOST = 1e-30, 1e12  # in SI: what kernels multiply and divide stays finite
 
-_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z/]+)\s*")
+_QUANTITY = re.compile(r"([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)[ \t]*([A-Za-z/%][A-Za-z/^2]*)")
 
 
 @dataclass(frozen=True)
@@ -34,20 +41,25 @@ class Unit:
         ValueError : a string that is no quantity, one in a unit of another kind, or a quantity too large to square
         """
         if isinstance(value, bool):
-            raise ValueError(f"{value} is no quantity in {self.symbol}; write a number")
+            raise ValueError(f"{value} is no {self._kind}; write a number")
         known = _TO_SI[self.symbol]
         number = value
         if isinstance(value, str):
             match = _QUANTITY.fullmatch(value)
             if match is None or match.group(2) not in known:
                 raise ValueError(
-                    f"{value!r} is no quantity in {self.symbol}; write a number or one of: {', '.join(known)}"
+                    f"{quoted(value)} is no {self._kind}; write a number, or one with a unit: {', '.join(known)}"
                 )
             number = float(match.group(1)) * known[match.group(2)]
         size = abs(number) if isinstance(number, (int, float)) else 0
         if _MOST < size < math.inf:
-            raise ValueError(f"{value} is beyond all quantities at sea; write {_MOST:g} {self.symbol} at most")
+            most = f"{_MOST:g} {self.symbol}".removesuffix(" 1")
+            raise ValueError(f"{quoted(value)} is beyond all quantities at sea; write {most} at most")
         return 0.0 if 0 < size < _LEAST else number
+
+    @property
+    def _kind(self) -> str:
+        return "share" if self.symbol == "1" else f"quantity in {self.symbol}"
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
         from pydantic_core import core_schema
@@ -56,7 +68,8 @@ class Unit:
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         number = dict(handler(schema))
-        text = {"type": "string", "pattern": r"^\s*[-+0-9.eE]+\s*(" + "|".join(_TO_SI[self.symbol]) + r")\s*$"}
+        units = "|".join(map(re.escape, _TO_SI[self.symbol]))
+        text = {"type": "string", "pattern": rf"^[-+0-9.eE]+[ \t]*({units})$"}
         return {"anyOf": [number, text], "unit": self.symbol}
 
 
@@ -74,8 +87,20 @@ class Says:
     sentence: str
 
 
+@dataclass(frozen=True)
+class Range:
+    """Marks which values a parameter of a strategy may have: `least` to `most`, or above `least` if it is `open`."""
+
+    least: float = 0.0
+    most: float = 1e12
+    open: bool = False
+
+
 Meters = Annotated[float, Unit("m")]
 MetersPerSecond = Annotated[float, Unit("m/s")]
+MetersPerSecondSquared = Annotated[float, Unit("m/s^2")]
 Seconds = Annotated[float, Unit("s")]
 Kilograms = Annotated[float, Unit("kg")]
 Degrees = Annotated[float, Unit("deg")]
+DegreesPerSecond = Annotated[float, Unit("deg/s")]
+Share = Annotated[float, Unit("1")]

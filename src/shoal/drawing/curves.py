@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from shoal.drawing.legend import headroom
 from shoal.drawing.style import GRAY, TARGET
-from shoal.drawing.words import count, estimate_text
+from shoal.drawing.words import count, estimate_text, legend_text
 from shoal.metrics.summary import evaluate
 from shoal.record.record import Record
 
@@ -29,7 +29,7 @@ def draw_band(
     """Draw a mean (P,) as a line and its interval from low to high as a band; NaN leaves a gap."""
     at, middle, bottom, top = (np.asarray(each, float) for each in (x, mean, low, high))
     axes.fill_between(at, bottom, top, color=color, alpha=_BAND, linewidth=0)
-    axes.plot(at, middle, color=color, label=label)
+    axes.plot(at, middle, color=color, label=legend_text(label))
 
 
 def draw_curve(
@@ -52,7 +52,14 @@ def draw_curve(
         axes.vlines(at, bottom, top, color=color, linewidth=1.4)
     axes.plot(at, middle, marker, color=color, markersize=size, markeredgewidth=0, zorder=3)
     axes.plot(
-        [], [], f"{marker}-", color=color, markersize=4.5, markeredgewidth=0, linewidth=width, label=label
+        [],
+        [],
+        f"{marker}-",
+        color=color,
+        markersize=4.5,
+        markeredgewidth=0,
+        linewidth=width,
+        label=legend_text(label),
     )  # for the legend
 
 

@@ -1,5 +1,6 @@
 """Frames into a film: raw pixels piped to the ffmpeg that imageio-ffmpeg brings; whole or not at all (extra: video)."""
 
+import os
 import subprocess
 import tempfile
 from collections.abc import Iterator
@@ -8,7 +9,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from shoal.core.errors import MissingExtraError, RecordError
-from shoal.core.files import whole_file
+from shoal.core.files import MARK, whole_file
 
 COLORS = 96  # of a gif's palette; figures have few, and their edges blend
 
@@ -16,7 +17,7 @@ _MP4: tuple[str, ...] = (
     *("-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p"),  # what every player can show
     *("-c:v", "libx264", "-preset", "medium", "-crf", "18", "-tune", "animation"),
     *("-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"),
-    *("-movflags", "+faststart", "-f", "mp4"),
+    *("-metadata", f"comment={MARK.decode()}", "-movflags", "+faststart", "-f", "mp4"),
 )
 _GIF = ("-lavfi", "paletteuse=dither=none:diff_mode=rectangle", "-f", "gif")
 
@@ -52,7 +53,7 @@ def encoder(file: Path, size: tuple[int, int], fps: float, palette: bytes | None
     """
     ffmpeg = find_ffmpeg()
     look: tuple[str, ...]
-    with whole_file(file) as partial, tempfile.TemporaryDirectory(prefix="shoal-film-") as folder:
+    with whole_file(file, ours=True) as partial, tempfile.TemporaryDirectory(prefix="shoal-film-") as folder:
         if file.suffix.lower() == ".gif":
             colors = _palette(file, ffmpeg, Path(folder) / "palette.png", size, palette or b"")
             look = ("-i", str(colors), *_GIF)
@@ -60,6 +61,17 @@ def encoder(file: Path, size: tuple[int, int], fps: float, palette: bytes | None
             look = _MP4
         with _running(file, [ffmpeg, *_raw(size, fps), *look, "-bitexact", "-y", str(partial)]) as pipe:
             yield pipe.write
+        if file.suffix.lower() == ".gif":
+            _mark(partial)
+
+
+def _mark(gif: Path) -> None:
+    """Say in a comment, before the last byte, who made it; ffmpeg writes none into a gif."""
+    with gif.open("r+b") as stream:
+        stream.seek(-1, os.SEEK_END)
+        if stream.read() == b";":
+            stream.seek(-1, os.SEEK_END)
+            stream.write(b"\x21\xfe" + bytes([len(MARK)]) + MARK + b"\x00;")
 
 
 def _raw(size: tuple[int, int], fps: float) -> list[str]:

@@ -4,8 +4,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from shoal.core.errors import ShoalError
-from shoal.core.files import whole_file
-from shoal.drawing.style import RC, style
+from shoal.core.files import check_file, whole_file
+from shoal.drawing.style import RC, require_matplotlib, style
 from shoal.version import VERSION
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ _NO_DATES: dict[str, dict[str, str | None]] = {
 
 
 def save_figure(figure: "Figure", path: str | Path, dpi: float | None = None) -> None:
-    """Write a figure to a file; its suffix, .png, .svg or .pdf, says how. A file of this name is replaced.
+    """Write a figure to a file; its suffix, .png, .svg or .pdf, says how. A file of Shoal's of this name is replaced.
 
     Parameters
     ----------
@@ -29,21 +29,23 @@ def save_figure(figure: "Figure", path: str | Path, dpi: float | None = None) ->
     Raises
     ------
     ShoalError : another suffix
-    RecordError : the file cannot be written; what was there before is untouched
+    RecordError : it cannot be written, or Shoal did not make what is there; that is untouched
     MissingExtraError : matplotlib is not installed
     """
     kind = figure_format(path)
-    with whole_file(path) as partial, style(), partial.open("xb") as stream:
+    with whole_file(path, ours=True) as partial, style(), partial.open("xb") as stream:
         figure.savefig(stream, format=kind, dpi=dpi or RC["savefig.dpi"], facecolor="white", metadata=_NO_DATES[kind])
 
 
 def figure_format(path: str | Path) -> str:
-    """Return png, svg or pdf, as the suffix of a file says.
+    """Return png, svg or pdf, as the suffix of a file says; refuse a figure that cannot be drawn.
 
     Raises
     ------
     ShoalError : another suffix
+    MissingExtraError : matplotlib is not installed
     """
+    require_matplotlib()
     kind = Path(path).suffix.lower().removeprefix(".")
     if kind not in FORMATS:
         problem = (
@@ -51,3 +53,14 @@ def figure_format(path: str | Path) -> str:
         )
         raise ShoalError(str(path), problem, f"name a file that ends in .{', .'.join(FORMATS[:-1])} or .{FORMATS[-1]}")
     return kind
+
+
+def check_figure(path: str | Path) -> None:
+    """Refuse, before the work that it shows, a figure that cannot be written there.
+
+    Raises
+    ------
+    ShoalError, RecordError, MissingExtraError : as `save_figure`
+    """
+    figure_format(path)
+    check_file(path, ours=True)

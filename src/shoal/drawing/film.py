@@ -7,13 +7,14 @@ from typing import NamedTuple
 import numpy as np
 
 from shoal.core.errors import ShoalError
+from shoal.core.files import check_file
 from shoal.drawing.encoder import encoder, find_ffmpeg
 from shoal.drawing.files import save_figure
 from shoal.drawing.film_page import FilmPage, film_size
 from shoal.drawing.scene import Parts
 from shoal.drawing.snapshot import frames_of
 from shoal.drawing.stretch import stretch_of
-from shoal.drawing.style import style
+from shoal.drawing.style import require_matplotlib, style
 from shoal.record.record import Record
 
 FORMATS = ("mp4", "gif", "png")
@@ -106,13 +107,13 @@ def check_film(file: Path, look: FilmLook) -> str:
     kind = file.suffix.lower().removeprefix(".")
     if kind not in FORMATS:
         raise ShoalError(str(file), "does not end in .mp4, .gif or .png", "name a film .mp4 or .gif, a still .png")
-    if not file.parent.is_dir():
-        raise ShoalError(str(file), f"cannot be written: there is no folder {file.parent}", "make the folder first")
+    check_file(file, ours=True)
     if look.fps is not None and not SLOWEST <= look.fps <= FASTEST:
         raise ShoalError("fps", f"is {look.fps:g}", f"choose {SLOWEST:g} to {FASTEST:g} frames per second")
     for side in (look.width, look.height):
         if side is not None and not SMALLEST <= side <= LARGEST:
             raise ShoalError("size", f"has a side of {side} pixels", f"choose {SMALLEST} to {LARGEST}")
+    require_matplotlib()
     if kind != "png":
         find_ffmpeg()
     return kind

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shoal.drawing.style import GRAY, INK, TARGET, fleet_color, fleet_marker
-from shoal.drawing.words import shorten
+from shoal.drawing.words import legend_text, shorten
 from shoal.record.record import Record
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ def marker_area(record: Record, fleet: int) -> float:
 
 def short_name(name: str) -> str:
     """The name of a fleet as far as it fits a legend."""
-    return shorten(name.lstrip("_") or "fleet", _LONGEST)  # matplotlib hides labels that begin with _
+    return legend_text(shorten(name, _LONGEST))
 
 
 def _sign(label: str, marker: str, **look: Any) -> Any:

@@ -1,6 +1,7 @@
 """How every figure looks: one palette, one set of rc values, one way to make a page."""
 
 import threading
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
@@ -62,6 +63,19 @@ RC: dict[str, Any] = {
 _LOCK = threading.RLock()  # matplotlib's rc values belong to the whole process
 
 
+def require_matplotlib() -> None:
+    """Refuse, before anything is run for it, a figure that cannot be drawn.
+
+    Raises
+    ------
+    MissingExtraError : matplotlib is not installed
+    """
+    try:
+        import matplotlib  # noqa: F401
+    except ImportError as error:
+        raise MissingExtraError.of("matplotlib", "plots", "drawing a figure") from error
+
+
 @contextmanager
 def style() -> Iterator[None]:
     """Draw or save inside this context: our look over matplotlib's defaults, whatever the user's own settings are.
@@ -70,11 +84,11 @@ def style() -> Iterator[None]:
     ------
     MissingExtraError : matplotlib is not installed
     """
-    try:
-        import matplotlib.style
-    except ImportError as error:
-        raise MissingExtraError.of("matplotlib", "plots", "drawing a figure") from error
-    with _LOCK, matplotlib.style.context(RC, after_reset=True):
+    require_matplotlib()
+    import matplotlib.style
+
+    with _LOCK, matplotlib.style.context(RC, after_reset=True), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph .* missing from font")  # a box stands for it
         yield
 
 

@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+from shoal.core.text import plain
 from shoal.record.record import Record
 from shoal.record.statistics import Estimate
 from shoal.scenario.choices import degree_text, strategy_text
@@ -35,8 +36,13 @@ _FIELDS = {"target_speed": "target speed [m/s]", "neighbors": "neighbors, k", "f
 
 def shorten(text: str, letters: int) -> str:
     """A text on one line, cut to so many letters; the cut is marked."""
-    text = " ".join(text.split())
+    text = plain(" ".join(text.split()))
     return text if len(text) <= letters else text[: letters - 1].rstrip() + "…"
+
+
+def legend_text(text: str) -> str:
+    """A text as a label that a legend shows: matplotlib hides those that begin with _."""
+    return f"{_THIN}{text}" if text.startswith("_") else text
 
 
 def estimate_text(value: Estimate) -> str:
@@ -64,10 +70,11 @@ def time_text(seconds: float) -> str:
 def setup_phrases(record: Record) -> list[str]:
     """What was run: agents, k, strategy, targets, steps and runs."""
     scenario, facts = record.scenario, record.facts
-    fleets = ", ".join(f"{n} {name}" for n, name in zip(facts.counts, facts.fleets, strict=True))
+    names = [plain(name) for name in facts.fleets]
+    fleets = ", ".join(f"{n} {name}" for n, name in zip(facts.counts, names, strict=True))
     agents = plural(facts.agents, "agent")
     return [
-        f"{agents} ({fleets})" if len(facts.counts) > 1 else f"{agents} ({facts.fleets[0]})",
+        f"{agents} ({fleets})" if len(facts.counts) > 1 else f"{agents} ({names[0]})",
         f"k = {degree_text(scenario)}",
         strategy_text(scenario),
         targets_text(scenario["targets"]),
@@ -115,7 +122,7 @@ def provenance_phrases(record: Record) -> list[str]:
 def _speed_text(target: dict[str, Any]) -> str:
     """How a target moves; the paper's, by waypoints, goes without saying."""
     if target["kind"] == "track":
-        return f"recorded ({target['id']})" if target.get("id") else "recorded"
+        return f"recorded ({plain(target['id'])})" if target.get("id") else "recorded"
     if "speed" not in target:
         return str(target["kind"])
     kind = "" if target["kind"] == "waypoint" else f"{target['kind']} "

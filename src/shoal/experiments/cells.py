@@ -3,7 +3,9 @@
 import hashlib
 import json
 from dataclasses import dataclass
+from typing import Any
 
+from shoal.core.errors import ScenarioError
 from shoal.experiments.design import Design, Point
 from shoal.scenario.change import change
 from shoal.scenario.edit import apply
@@ -18,6 +20,12 @@ class Cell:
 
     point: Point
     scenario: Scenario
+
+    @property
+    def shown(self) -> Point:
+        """The point as results show it: a strategy's file by the name of the strategy."""
+        named = {"strategy": self.scenario.strategy.name} if isinstance(self.point.get("strategy"), str) else {}
+        return {**self.point, **named}
 
     def run_id(self, run: int) -> str:
         """24 hex digits over what shapes a run: the scenario, the seed, the replicate and the results version."""
@@ -37,12 +45,16 @@ def make_cells(design: Design, changes: Point, *, independent: bool = False) -> 
     """
     base = change(table_of(design.scenario), changes)
     cells: dict[str, Cell] = {}
+    files: dict[str, Any] = {}
     name = name_of_source(design.scenario)
     for point in design.points:
         told = ", ".join(f"{name}={value}" for name, value in point.items())
         scenario = scenario_from(apply(base, point), where=f"{name} ({told})" if told else name)
         if independent:
             scenario = scenario.model_copy(update={"seed": _seed_of(scenario)})
+        called, choice = scenario.strategy.name, point.get("strategy")
+        if isinstance(choice, str) and files.setdefault(called, choice) != choice:  # results could not tell them apart
+            raise ScenarioError(f"{files[called]} and {choice}", f"are both called {called!r}", "give one another name")
         cells.setdefault(f"{scenario.hash}/{scenario.seed}", Cell(dict(point), scenario))
     return list(cells.values())
 

@@ -55,7 +55,7 @@ def _contender(choice: str) -> Contender:
         loaded = load_strategies({"file": str(Path(choice).resolve())})
         owner = find_strategy(loaded["name"], loaded["source"])
     else:
-        owner = CATALOGUE.get(choice)
+        owner = find_strategy(choice)
     if owner is None:
         hint = did_you_mean(choice, CATALOGUE)
         known = ", ".join(sorted(CATALOGUE))

@@ -2,15 +2,17 @@
 
 import itertools
 import math
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from shoal.core.errors import MissingExtraError, ScenarioError
+from shoal.core.text import cut, quoted
 from shoal.scenario.edit import parse_value
-from shoal.scenario.load import Source, presets
+from shoal.scenario.load import Source, presets, raw_table
+
+MOST_POINTS = 1_000_000  # combinations of a design
 
 Point = dict[str, Any]  # {field: value}: shorthands (neighbors, fast, ...) and dotted paths, see scenario/edit.py
 
@@ -30,7 +32,14 @@ class Design:
 
 
 def grid(vary: Mapping[str, Sequence[Any]]) -> list[Point]:
-    """Return every combination of values; the first field varies slowest."""
+    """Return every combination of values; the first field varies slowest.
+
+    Raises
+    ------
+    ScenarioError : there are more than a million
+    """
+    if (count := math.prod(len(values) for values in vary.values())) > MOST_POINTS:
+        raise ScenarioError(", ".join(vary), f"have {count:,} combinations", f"ask for {MOST_POINTS:,} at most")
     return [dict(zip(vary, values, strict=True)) for values in itertools.product(*vary.values())]
 
 
@@ -84,14 +93,24 @@ def parse_vary(text: str) -> tuple[str, list[Any]]:
     return name.strip().replace("-", "_") if "." not in name else name.strip(), parse_values(values, f"--vary {text}")
 
 
+_FARTHEST = 1e18  # of a range: beyond all fields
+
+
 def parse_values(text: str, where: str) -> list[Any]:
     """Read a list of values or a range."""
     parts = text.split(":")
-    if 2 <= len(parts) <= 3 and all(isinstance(parse_value(part), (int, float)) for part in parts):
+    if 2 <= len(parts) <= 3 and all(type(parse_value(part)) in (int, float) for part in parts):
         start, stop, step = (*map(parse_value, parts), 1)[:3]
+        if not all(-_FARTHEST <= number <= _FARTHEST for number in (start, stop, step)):
+            raise ScenarioError(where, f"the range {cut(text)} has no end", "write numbers, such as 10:49:3")
         if step <= 0 or stop < start:
-            raise ScenarioError(where, f"the range {text} is empty", "write from:to:step with from <= to and step > 0")
-        count = math.floor((stop - start) / step + 1e-9) + 1
+            fix = "write from:to:step with from <= to and step > 0"
+            raise ScenarioError(where, f"the range {cut(text)} is empty", fix)
+        count = math.floor(min((stop - start) / step, 1e18) + 1e-9) + 1
+        if count > MOST_POINTS:
+            raise ScenarioError(
+                where, f"the range {cut(text)} has {count:,} values", f"ask for {MOST_POINTS:,} at most"
+            )
         return [start + number * step for number in range(count)]
     return [parse_value(part.strip()) for part in text.split(",")]
 
@@ -100,7 +119,7 @@ def is_design_file(source: str) -> bool:
     """Whether a TOML file describes a sweep rather than a scenario."""
     if source in presets() or not source.endswith(".toml") or not Path(source).is_file():
         return False
-    table = _read(source)
+    table = raw_table(source)
     return any(key in table for key in ("vary", "points"))
 
 
@@ -111,7 +130,7 @@ def read_design(source: str) -> Design:
     ------
     ScenarioError : unknown fields or values
     """
-    table = _read(source)
+    table = raw_table(source)
     unknown = set(table) - {"scenario", "runs", "mode", "vary", "points", "samples", "seed"}
     if unknown:
         known = "scenario, runs, mode, vary, points, samples, seed"
@@ -120,7 +139,13 @@ def read_design(source: str) -> Design:
         raise ScenarioError(f"{source} scenario", "is required and missing", 'add scenario = "oceans2020"')
     vary = {
         name: value if isinstance(value, list) else parse_values(str(value), f"{source} vary.{name}")
-        for name, value in table.get("vary", {}).items()
+        for name, value in _table(source, "vary", table.get("vary", {})).items()
+    }
+    if empty := next((name for name, values in vary.items() if not values), None):
+        raise ScenarioError(f"{source} vary.{empty}", "has no values", "give it one or more, or leave it out")
+    whole = {
+        name: _whole(source, name, table.get(name, default))
+        for name, default in (("runs", 5), ("samples", 10), ("seed", 1))
     }
     mode = table.get("mode", "grid")
     if mode == "grid":
@@ -128,21 +153,36 @@ def read_design(source: str) -> Design:
     elif mode == "zip":
         varied = together(vary)
     elif mode == "latin-hypercube":
-        varied = latin_hypercube(vary, int(table.get("samples", 10)), int(table.get("seed", 1)))
+        varied = latin_hypercube(vary, whole["samples"], whole["seed"])
     else:
-        raise ScenarioError(f"{source} mode", f"is {mode!r}", "choose grid, zip or latin-hypercube")
-    points = [{**one, **other} for one in table.get("points", [{}]) for other in varied]
+        raise ScenarioError(f"{source} mode", f"is {quoted(mode)}", "choose grid, zip or latin-hypercube")
+    given = table.get("points", [{}])
+    listed = [_table(source, "points", each) for each in (given if isinstance(given, list) else [given])]
+    if len(listed) * len(varied) > MOST_POINTS:
+        count = f"{len(listed) * len(varied):,}"
+        raise ScenarioError(source, f"has {count} combinations", f"ask for {MOST_POINTS:,} at most")
+    points = [{**one, **other} for one in listed for other in varied]
     base = table["scenario"]
+    if not isinstance(base, str) or not base:
+        raise ScenarioError(f"{source} scenario", f"is {quoted(base)}", 'name a preset or a file, such as "oceans2020"')
     if base not in presets():
         base = str(Path(source).resolve().parent / base)
-    return Design(base, tuple(points), int(table.get("runs", 5)))
+    return Design(base, tuple(points), whole["runs"])
 
 
-def _read(source: str) -> dict[str, Any]:
-    try:
-        return tomllib.loads(Path(source).read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise ScenarioError(source, f"cannot be read: {error}", "name a TOML file") from None
+def _table(source: str, name: str, value: Any) -> dict[str, Any]:
+    if not isinstance(value, dict):
+        raise ScenarioError(f"{source} {name}", f"{quoted(value)} is no table", f"write [{name}] and FIELD = VALUE")
+    return value
+
+
+def _whole(source: str, name: str, value: Any) -> int:
+    least = 0 if name == "seed" else 1
+    if type(value) is not int or not least <= value <= MOST_POINTS:
+        raise ScenarioError(
+            f"{source} {name}", f"is {quoted(value)}", f"give a whole number, {least} to {MOST_POINTS:,}"
+        )
+    return value
 
 
 def _between(low: Any, high: Any, share: float) -> Any:

@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from shoal.core.errors import MissingExtraError, ScenarioError
-from shoal.core.files import write_whole
+from shoal.core.files import MARK, write_whole
 from shoal.experiments.replicate import LIST_COLUMNS, Row
 from shoal.experiments.store import Store
 from shoal.metrics.summary import METRICS
 from shoal.record.statistics import estimate
+from shoal.version import VERSION
 
 _OF_A_RUN = ("run_id", "run", "seed", "scenario_hash", "status", "error", "started", "seconds")  # columns, no fields
 
@@ -25,7 +26,7 @@ def read_rows(folder: str | Path) -> tuple[list[str], list[Row]]:
     RecordError : the folder holds no sweep
     """
     with Store(folder, read_only=True) as store:
-        return json.loads(store.meta()["fields"]), store.rows()
+        return store.fields, store.rows()
 
 
 def varied_rows(results: Any) -> tuple[list[str], list[Row]]:
@@ -119,8 +120,9 @@ def write_parquet(rows: Sequence[Row], file: Path) -> None:
     except ImportError:
         raise MissingExtraError.of("pyarrow", "sweep", "writing parquet") from None
     stream = io.BytesIO()
-    pq.write_table(pa.Table.from_pylist(list(rows)), stream)
-    write_whole(file, stream.getvalue())
+    table = pa.Table.from_pylist(list(rows))
+    pq.write_table(table.replace_schema_metadata({MARK: VERSION}), stream)
+    write_whole(file, stream.getvalue(), ours=True)
 
 
 def seal(folder: Path, rows: Sequence[Row]) -> Path:

@@ -2,34 +2,39 @@
 
 SQLite in WAL mode loses nothing that it has acknowledged, whatever is killed, and every language reads it
 (docs/decisions/0003-store.md). Numbers that a rerun reproduces are in `runs`; when and how long is in `timing`.
+Every row has a checksum, and so has the whole (store_rows.py): what was damaged later is refused.
 """
 
 import json
 import os
 import sqlite3
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
+from urllib.parse import quote
+from uuid import uuid4
 
 from shoal.core.errors import RecordError
+from shoal.core.files import OwnFolder
 from shoal.experiments.cells import Cell
-from shoal.experiments.replicate import LIST_COLUMNS, Row
-from shoal.metrics.summary import METRICS
+from shoal.experiments.replicate import Row
+from shoal.experiments.store_rows import (
+    FORMAT,
+    IDENTITY,
+    SCHEMA,
+    Content,
+    Meta,
+    check_tables,
+    make_rows,
+    read_meta,
+    read_row,
+    write_meta,
+)
 from shoal.version import RESULTS_VERSION, VERSION
 
-_IDENTITY = ("scenario", "fields", "changes", "independent", "results_version", "metrics")
-
-_SCHEMA = f"""
-CREATE TABLE IF NOT EXISTS meta (name TEXT PRIMARY KEY, value TEXT NOT NULL);
-CREATE TABLE IF NOT EXISTS runs (
-    run_id TEXT PRIMARY KEY, scenario_hash TEXT NOT NULL, seed INTEGER NOT NULL, run INTEGER NOT NULL,
-    point TEXT NOT NULL, status TEXT NOT NULL, error TEXT NOT NULL,
-    {", ".join(f"{name} REAL" for name in METRICS)},
-    {", ".join(f"{name} TEXT" for name in LIST_COLUMNS)},
-    shoal_version TEXT NOT NULL, results_version INTEGER NOT NULL);
-CREATE TABLE IF NOT EXISTS timing (run_id TEXT PRIMARY KEY, started TEXT NOT NULL, seconds REAL NOT NULL);
-"""
+_PATIENCE = 30.0  # [s] for readers, which are quick
 
 
 class Store:
@@ -43,37 +48,38 @@ class Store:
 
     Raises
     ------
-    RecordError : another process is writing, another sweep made it, no store to read, or the disk refuses
+    RecordError : another process is writing, another sweep or results version made it, the folder holds something else,
+        it is damaged or of a newer Shoal, or the disk refuses
     """
 
     def __init__(self, folder: str | Path, identity: dict[str, Any] | None = None, *, read_only: bool = False) -> None:
         self.folder = Path(folder)
+        self._where = str(folder)
         self._identity = identity
-        self._read_only = read_only
-        self._lock: sqlite3.Connection | None = None
+        self._own = None if read_only else OwnFolder(folder, must_lock=True)
+        self._database: sqlite3.Connection | None = None
 
     def __enter__(self) -> Self:
-        file = self.folder / "runs.sqlite"
-        if self._read_only and not file.is_file():
-            raise RecordError(
-                str(self.folder), "holds no sweep (it has no runs.sqlite)", "name a folder of shoal sweep"
-            )
         try:
-            if not self._read_only:
-                self.folder.mkdir(parents=True, exist_ok=True)
-                self._lock = self._take_lock()
-            self._database = sqlite3.connect(file, check_same_thread=False, timeout=30.0)
-            self._database.row_factory = sqlite3.Row
-            if not self._read_only:
-                self._database.execute("PRAGMA journal_mode=WAL")
-                self._database.execute("PRAGMA synchronous=NORMAL")
-                with self._database:
-                    self._database.executescript(_SCHEMA)
-                    self._check_identity()
-        except (OSError, sqlite3.Error) as error:
-            self.close()
-            raise RecordError(str(self.folder), f"cannot be opened: {error}", "name a folder you may write") from error
-        except RecordError:
+            if self._own is not None:
+                self._own.claim()
+                with self._told():
+                    self._make(self._own)
+            file = self.folder / "runs.sqlite"
+            with self._told():
+                if not file.is_file():
+                    raise RecordError(
+                        self._where, "holds no sweep (it has no runs.sqlite)", "name a folder of shoal sweep"
+                    )
+                self._database = _connect(file, "rw" if self._own else None)
+                check_tables(self._database)
+                self._meta = read_meta(self._database, self._where)
+                if self._own:
+                    self._check_identity(self._meta)
+                    self.rows()  # before anything is added to it
+                    self._database.execute("PRAGMA journal_mode=WAL")
+                    self._database.execute("PRAGMA synchronous=NORMAL")
+        except BaseException:
             self.close()
             raise
         return self
@@ -84,14 +90,27 @@ class Store:
         self.close()
 
     def close(self) -> None:
-        """Release the database and the lock."""
-        for connection in (getattr(self, "_database", None), self._lock):
-            if connection is not None:
-                connection.close()
+        """Release the database and the folder."""
+        if self._database is not None:
+            self._database.close()
+            self._database = None
+        if self._own is not None:
+            self._own.release()
+
+    @property
+    def fields(self) -> list[str]:
+        """Names of the fields that the sweep varies."""
+        return list(self._meta.identity["fields"])
+
+    @property
+    def results_version(self) -> int:
+        """Of which its numbers are."""
+        return int(self._meta.identity["results_version"])
 
     def status(self) -> dict[str, str]:
         """Status of every run that has a row, by run id."""
-        return {row["run_id"]: row["status"] for row in self._database.execute("SELECT run_id, status FROM runs")}
+        with self._told():
+            return {row["run_id"]: row["status"] for row in self._open.execute("SELECT run_id, status FROM runs")}
 
     def add(self, entries: Iterable[tuple[Cell, int, Row]]) -> None:
         """Write rows in one transaction; a run that has a row gets the new one.
@@ -100,87 +119,144 @@ class Store:
         ------
         RecordError : the disk refuses; what was acknowledged before stays
         """
-        runs, timing = [], []
-        for cell, run, row in entries:
-            run_id = cell.run_id(run)
-            runs.append(
-                {
-                    "run_id": run_id,
-                    "scenario_hash": cell.scenario.hash,
-                    "seed": str(cell.scenario.seed),
-                    "run": run,
-                    "point": json.dumps(cell.point),
-                    **{name: row[name] for name in ("status", "error", *METRICS)},
-                    **{name: json.dumps(row[name]) for name in LIST_COLUMNS},
-                    "shoal_version": VERSION,
-                    "results_version": RESULTS_VERSION,
-                }
-            )
-            timing.append({"run_id": run_id, "started": row["started"], "seconds": row["seconds"]})
+        database = self._open
         try:
-            with self._database:
-                for table, rows in (("runs", runs), ("timing", timing)):
-                    for each in rows:
+            with database:
+                content = Content.read(database)
+                for stored, timing in make_rows(entries):
+                    old = database.execute("SELECT checksum FROM runs WHERE run_id = ?", (stored["run_id"],)).fetchone()
+                    content = content.less(old["checksum"]) if old else content
+                    content = content.plus(stored["checksum"])
+                    for table, each in (("runs", stored), ("timing", timing)):
                         names = ", ".join(each)
                         values = ", ".join(f":{name}" for name in each)
-                        self._database.execute(f"INSERT OR REPLACE INTO {table} ({names}) VALUES ({values})", each)
+                        database.execute(f"INSERT OR REPLACE INTO {table} ({names}) VALUES ({values})", each)
+                content.write(database)
         except sqlite3.Error as error:
-            raise RecordError(
-                str(self.folder), f"cannot be written: {error}", "free space, then run it again"
-            ) from error
+            raise RecordError(self._where, f"cannot be written: {error}", "free space, then run it again") from error
 
     def rows(self) -> list[Row]:
-        """All rows, ordered by their point's values and run; the point's fields are keys of their own."""
-        fields: list[str] = json.loads(self.meta()["fields"])
-        rows = []
-        for stored in self._database.execute("SELECT * FROM runs"):
-            row = dict(stored)
-            point = json.loads(row.pop("point"))
-            for name in LIST_COLUMNS:
-                row[name] = json.loads(row[name])
-            rows.append({**{field: point.get(field) for field in fields}, **row})
+        """All rows, ordered by their point's values and run; the point's fields are keys of their own.
+
+        Raises
+        ------
+        RecordError : damaged
+        """
+        fields = self.fields
+        with self._told():
+            self._open.execute("BEGIN")  # rows and their sum at one moment, whoever writes
+            try:
+                stored = [dict(row) for row in self._open.execute("SELECT * FROM runs")]
+                if self._meta.format > 1:
+                    Content.read(self._open).check(stored)
+            finally:
+                self._open.execute("ROLLBACK")
+            rows = [read_row(each, self._meta) for each in stored]
         return sorted(rows, key=lambda row: (*(_sortable(row[field]) for field in fields), row["run"], row["run_id"]))
 
     def timing(self) -> dict[str, dict[str, Any]]:
         """When each run started and how long it took, by run id."""
-        return {row["run_id"]: dict(row) for row in self._database.execute("SELECT * FROM timing")}
+        with self._told():
+            return {row["run_id"]: dict(row) for row in self._open.execute("SELECT * FROM timing")}
 
-    def meta(self) -> dict[str, str]:
-        """What the sweep runs, as stored when it was begun."""
-        return {row["name"]: row["value"] for row in self._database.execute("SELECT name, value FROM meta")}
+    @property
+    def _open(self) -> sqlite3.Connection:
+        assert self._database is not None  # within the context
+        return self._database
 
-    def _take_lock(self) -> sqlite3.Connection:
-        """Hold an exclusive lock that the operating system releases however this process ends."""
-        lock = sqlite3.connect(self.folder / "lock.sqlite", timeout=0.0, isolation_level=None, check_same_thread=False)
-        holder = self.folder / "lock.pid"
+    def _make(self, own: OwnFolder) -> None:
+        """Make an empty store, whole or not at all, where there is none."""
+        file = own.place / "runs.sqlite"
+        if file.exists():
+            return
+        own.clean()
+        if own.content():
+            raise RecordError(self._where, "is not empty, and holds no sweep", "name a new or empty folder")
+        partial = own.place / f".shoal-{uuid4().hex}.partial"
         try:
-            lock.execute("BEGIN EXCLUSIVE")
-        except sqlite3.OperationalError:
-            lock.close()
-            who = holder.read_text(encoding="utf-8").strip() if holder.is_file() else "another process"
-            raise RecordError(
-                str(self.folder), f"is being written by {who}", "wait until it ends, or use another folder"
-            ) from None
-        holder.write_text(f"process {os.getpid()}\n", encoding="utf-8")
-        return lock
+            database = _connect(partial, "rwc")
+            try:
+                database.execute("PRAGMA journal_mode=MEMORY")  # no second file that a kill could leave
+                with database:
+                    database.executescript(SCHEMA)
+                    write_meta(database, self._identity or {})
+                    Content().write(database)
+            finally:
+                database.close()
+            partial.replace(file)
+        finally:
+            partial.unlink(missing_ok=True)
 
-    def _check_identity(self) -> None:
-        """Remember what this sweep runs, or refuse to mix it with what another one ran."""
-        wanted = {name: json.dumps((self._identity or {})[name]) for name in _IDENTITY}
-        known = self.meta()
+    def _check_identity(self, meta: Meta) -> None:
+        """Refuse to mix what this sweep runs with what another one ran."""
+        if meta.identity["results_version"] != (self._identity or {})["results_version"]:
+            raise RecordError(
+                self._where,
+                f"holds numbers of results version {meta.identity['results_version']}, which this Shoal ({VERSION}, "
+                f"results version {RESULTS_VERSION}) must not mix with its own",
+                "use another folder; shoal results and shoal plot still read this one",
+            )
+        if meta.format < FORMAT:
+            raise RecordError(self._where, "was made by an older Shoal", "use another folder")
         differences = [
             difference
-            for name, value in known.items()
-            for difference in _differences(name, json.loads(value), json.loads(wanted[name]))
+            for name in IDENTITY
+            for difference in _differences(name, meta.identity[name], _as_json((self._identity or {})[name]))
         ]
         if differences:
             raise RecordError(
-                str(self.folder),
+                self._where,
                 f"was made by another sweep: {'; '.join(differences)}",
                 "use another folder, or the same command as before",
             )
-        for name, value in wanted.items():
-            self._database.execute("INSERT OR IGNORE INTO meta VALUES (?, ?)", (name, value))
+
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        """One error for everything that can be wrong with a file that was not always in our hands."""
+        try:
+            yield
+        except RecordError:
+            raise
+        except OSError as error:
+            raise RecordError(
+                self._where, f"cannot be opened: {error.strerror or error}", "name a folder you may write"
+            ) from error
+        except sqlite3.OperationalError as error:
+            raise RecordError(self._where, *_refused(error)) from error
+        except Exception as error:
+            told = " ".join(str(error).split())[:300] or type(error).__name__
+            raise RecordError(self._where, f"is damaged: {told}", _MEND) from error
+
+
+_MEND = "take runs.sqlite from a backup, or run the sweep again in another folder"
+
+
+def _refused(error: sqlite3.OperationalError) -> tuple[str, str]:
+    """What SQLite refuses and what to do about it."""
+    name = getattr(error, "sqlite_errorname", "")
+    if name.startswith(("SQLITE_BUSY", "SQLITE_LOCKED", "SQLITE_IOERR_LOCK", "SQLITE_PROTOCOL")):
+        problem = "is locked, though no sweep writes it: another program holds it, or this file system does not lock"
+        return problem, "close that program, or use a folder on a local disk"
+    if name.startswith(("SQLITE_CANTOPEN", "SQLITE_READONLY", "SQLITE_IOERR", "SQLITE_FULL", "SQLITE_PERM")):
+        return f"cannot be opened: {error}", "free space, or name a folder that you may write"
+    return f"is damaged: {error}", _MEND
+
+
+def _connect(file: Path, mode: str | None) -> sqlite3.Connection:
+    """Open a database; where nothing can be written, as it lies there."""
+    if mode is None:
+        mode = "rw" if os.access(file, os.W_OK) and os.access(file.parent, os.W_OK) else "ro&immutable=1"
+    address = f"file:{quote(os.path.abspath(file))}?mode={mode}"
+    database: sqlite3.Connection = sqlite3.connect(address, uri=True, check_same_thread=False, timeout=_PATIENCE)
+    database.row_factory = sqlite3.Row
+    database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, 100_000_000)
+    database.execute("PRAGMA trusted_schema=OFF")
+    database.execute("PRAGMA cell_size_check=ON")
+    return database
+
+
+def _as_json(value: Any) -> Any:
+    return json.loads(json.dumps(value))
 
 
 def _differences(path: str, then: Any, now: Any) -> list[str]:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from shoal.core.errors import ScenarioError, did_you_mean
+from shoal.core.files import check_folder
 from shoal.experiments.cells import Cell, make_cells
 from shoal.experiments.compare import comparison_design, run_comparison, values_of
 from shoal.experiments.comparison import Values
@@ -109,6 +110,7 @@ def run_suite(
     ------
     ScenarioError, StrategyError, RecordError, KeyboardInterrupt : as `sweep`
     """
+    check_folder(out, [each.folder for each in suite.conditions])
     overall = Progress(total=len(suite.cells(contenders)) * suite.runs, before=0)  # refuses what cannot run
     design = comparison_design(suite.scenario, contenders, suite.runs)
     found = {}

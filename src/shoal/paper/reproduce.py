@@ -12,7 +12,7 @@ import numba
 import numpy as np
 
 from shoal.core.errors import RecordError, ScenarioError
-from shoal.core.files import write_whole
+from shoal.core.files import check_folder, write_whole
 from shoal.experiments.cells import make_cells
 from shoal.experiments.executors import in_threads
 from shoal.experiments.results import seal
@@ -129,11 +129,17 @@ def _claim_folder(out: Path, plan: Plan) -> None:
     """Remember whose folder this is, or refuse one of another reproduction with a plain sentence."""
     file = out / "plan.json"
     mine = {"paper": plan.paper, "quick": plan.quick}
+    check_folder(out, [file.name])
     try:
         out.mkdir(parents=True, exist_ok=True)
         known = json.loads(file.read_text(encoding="utf-8")) if file.exists() else mine
-    except (OSError, ValueError) as error:
-        raise RecordError(str(file), f"cannot be read: {error}", "name another folder with --out") from error
+        if not isinstance(known, dict):
+            raise ValueError("it is no plan")
+    except OSError as error:
+        told = f"cannot be used: {error.strerror or error}"
+        raise RecordError(str(file), told, "name another folder with --out") from error
+    except (ValueError, RecursionError) as error:
+        raise RecordError(str(file), f"is damaged: {error}", "name another folder with --out") from error
     if known != mine:
         raise RecordError(
             str(out),

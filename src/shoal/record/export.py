@@ -6,9 +6,8 @@ trajectory is a track that a target can follow.
 """
 
 import json
-import shutil
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.core.errors import MissingExtraError, RecordError
+from shoal.core.files import WholeFolder, whole_file
 from shoal.metrics.heading_bearing import CENTERS
 from shoal.metrics.summary import METRICS, evaluate, fleet_fluctuation, fleet_stationary, phi_histogram
 from shoal.record.trajectory import Trajectory
@@ -68,7 +68,7 @@ def to_netcdf(record: "Record", path: str | Path) -> None:
     RecordError : the file exists or cannot be written
     """
     _library("netCDF4")
-    with _whole(Path(path)) as partial:
+    with whole_file(path, new=True) as partial, _failures_told(path):
         to_xarray(record).to_netcdf(partial, format="NETCDF4", engine="netcdf4")
 
 
@@ -81,8 +81,9 @@ def to_zarr(record: "Record", path: str | Path) -> None:
     RecordError : the folder exists or cannot be written
     """
     _library("zarr")
-    with _whole(Path(path)) as partial:
-        to_xarray(record).to_zarr(partial, mode="w-", zarr_format=2, consolidated=True)
+    with WholeFolder(path, last=".zmetadata") as folder, _failures_told(path):
+        to_xarray(record).to_zarr(folder.partial, mode="w-", zarr_format=2, consolidated=True)
+        folder.finish()
 
 
 def _library(name: str) -> Any:
@@ -203,7 +204,7 @@ def _trajectory_coordinates(record: "Record") -> dict[str, Variable]:
 class _Stack:
     """Trajectories of several runs behind each other, (runs x instances, obs), on the steps of all."""
 
-    def __init__(self, trajectories: dict[int, Trajectory]) -> None:
+    def __init__(self, trajectories: Mapping[int, Trajectory]) -> None:
         self._runs = list(trajectories.values())
         self.first = self._runs[0]
         self.steps = np.unique(np.concatenate([frames.step for frames in self._runs]))
@@ -335,27 +336,12 @@ def _global_attributes(record: "Record") -> dict[str, Any]:
 
 
 @contextmanager
-def _whole(path: Path) -> Iterator[Path]:
-    """A place beside `path` to write to, which takes its name once everything is written."""
-    if path.exists():
-        raise RecordError(str(path), "exists already", "name another one, or remove this one first")
-    if not path.parent.is_dir():
-        raise RecordError(str(path), f"there is no folder {path.parent}", "make the folder first")
-    partial = path.with_name(path.name + ".partial")
+def _failures_told(path: str | Path) -> Iterator[None]:
+    """One error for what the libraries raise where the operating system refuses."""
     try:
-        _remove(partial)
-        yield partial
-        partial.rename(path)
+        yield
     except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError on a full disk
         reason = getattr(error, "strerror", None) or error
         raise RecordError(
             str(path), f"cannot be written: {reason}", "free space, or name a place you may write"
         ) from error
-    finally:
-        _remove(partial)
-
-
-def _remove(partial: Path) -> None:
-    shutil.rmtree(partial, ignore_errors=True)
-    with suppress(OSError):
-        partial.unlink(missing_ok=True)

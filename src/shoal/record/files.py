@@ -1,23 +1,26 @@
 """A record on disk: a folder with record.json, tallies.npz and one folder of .npy files per recorded run.
 
-Everything is written into FOLDER.partial, which takes its name only when complete: a full disk or an interrupt
-leaves nothing that looks like a record.
+It is complete or not there (core/files.py), and says its own checksums: what was damaged later is refused.
 """
 
 import json
-import shutil
+import re
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Self
-from zipfile import BadZipFile
+from typing import Any, Self
 
 import numpy as np
 
 from shoal.core.errors import RecordError
+from shoal.core.files import WholeFolder
 from shoal.metrics.summary import Facts
 from shoal.metrics.tally import Tally
+from shoal.record.arrays import check_frames, check_trajectory, read_tallies, sum_of_file
+from shoal.record.content import FORMAT, RecordContent, read_content, sum_of_content
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory, TrajectoryWriter
+from shoal.version import RESULTS_VERSION
 
 
 class RecordFolder:
@@ -25,38 +28,31 @@ class RecordFolder:
 
     Raises
     ------
-    RecordError : the folder exists and is not empty, or cannot be written
+    RecordError : the folder exists and is not empty, is being written by another process, or cannot be written
     """
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
-        self._partial = self.folder.with_name(self.folder.name + ".partial")
-        self._done = False
+        self._whole = WholeFolder(folder, last="record.json")
+        self._writers: dict[str, TrajectoryWriter] = {}
 
     def __enter__(self) -> Self:
-        if self.folder.exists() and (not self.folder.is_dir() or any(self.folder.iterdir())):
-            raise RecordError(str(self.folder), "exists already", "name another folder, or remove this one first")
-        try:
-            shutil.rmtree(self._partial, ignore_errors=True)
-            self._partial.mkdir(parents=True)
-        except OSError as error:
-            raise self.unwritable(error) from error
+        self._whole.__enter__()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if not self._done:
-            shutil.rmtree(self._partial, ignore_errors=True)
-        if isinstance(error, OSError):
-            raise self.unwritable(error) from error
+        self._whole.__exit__(kind, error, trace)
 
     def trajectory(self, run: int, frames: int) -> TrajectoryWriter:
         """Return a writer for the frames of a run."""
-        return TrajectoryWriter(self._partial / _run_name(run), frames)
+        name = f"run-{run:04d}"
+        self._writers[name] = TrajectoryWriter(self._whole.partial / name, frames)
+        return self._writers[name]
 
     def finish(self, record: Record) -> Record:
-        """Write what is left, give the folder its name, and return the record as it is on disk."""
+        """Write what is left, give everything its place, and return the record as it is on disk."""
         for run, trajectory in record.trajectories.items():
             writer = self.trajectory(run, trajectory.step.size)
             writer.append(trajectory)
@@ -66,28 +62,27 @@ class RecordFolder:
             for run, tally in enumerate(record.tallies)
             for name, part in zip(Tally._fields, tally, strict=True)
         }
-        np.savez(self._partial / "tallies.npz", **tallies)  # type: ignore[arg-type]
-        content = {
-            "format": 1,
+        np.savez(self._whole.partial / "tallies.npz", **tallies)  # type: ignore[arg-type]
+        content: dict[str, Any] = {
+            "format": FORMAT,
             "summary": record.summary(),
             "provenance": record.provenance,
             "facts": record.facts._asdict(),
             "scenario": record.scenario,
+            "sha256": {
+                "tallies.npz": sum_of_file(self._whole.partial / "tallies.npz"),
+                **{
+                    f"{folder}/{name}.npy": each
+                    for folder, writer in sorted(self._writers.items())
+                    for name, each in writer.sums().items()
+                },
+            },
         }
-        (self._partial / "record.json").write_text(json.dumps(content, indent=1), encoding="utf-8")
-        if self.folder.exists():
-            self.folder.rmdir()
-        self._partial.rename(self.folder)
-        self._done = True
+        content = json.loads(json.dumps(content))  # as it will be read
+        content["checksum"] = sum_of_content(content)
+        (self._whole.partial / "record.json").write_text(json.dumps(content, indent=1), encoding="utf-8")
+        self._whole.finish()
         return open_record(self.folder)
-
-    def unwritable(self, error: OSError) -> RecordError:
-        """The one error for every reason that the disk gives."""
-        return RecordError(
-            str(self.folder),
-            f"cannot be written: {error.strerror or error}",
-            "free space, or name a folder you may write",
-        )
 
 
 def save_record(record: Record, folder: str | Path) -> None:
@@ -104,25 +99,102 @@ def save_record(record: Record, folder: str | Path) -> None:
 def open_record(folder: str | Path) -> Record:
     """Read a record; trajectories stay on disk until they are used.
 
+    Records of all results versions open; provenance["results_version"] says of which the numbers are.
+
     Raises
     ------
-    RecordError : not a record's folder, or a damaged one
+    RecordError : not a record's folder, one of a newer Shoal, or a damaged one; of frames also when they are first used
     """
     folder = Path(folder)
-    if not (folder / "record.json").is_file():
-        raise RecordError(str(folder), "is no record (it has no record.json)", "name a folder made by --out")
     try:
-        content = json.loads((folder / "record.json").read_text(encoding="utf-8"))
-        facts = Facts._make(tuple(part) if isinstance(part, list) else part for part in content["facts"].values())
-        with (folder / "tallies.npz").open("rb") as stream, np.load(stream) as arrays:
-            tallies = tuple(
-                Tally(*(arrays[f"{run}.{name}"] for name in Tally._fields)) for run in range(content["summary"]["runs"])
-            )
-        trajectories = {int(each.name[4:]): Trajectory.open(each) for each in sorted(folder.glob("run-*"))}
-        return Record(content["scenario"], facts, tallies, content["provenance"], trajectories)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, EOFError, BadZipFile) as error:
-        raise RecordError(str(folder), f"is damaged: {error}", "run the scenario again into a new folder") from error
+        if not (folder / "record.json").is_file():
+            raise RecordError(str(folder), "is no record (it has no record.json)", "name a folder made by --out")
+        content = read_content(folder / "record.json")
+        facts = Facts(**{name: _plain(part) for name, part in content.facts})
+        tallies = read_tallies(
+            folder / "tallies.npz",
+            facts,
+            targets=len(content.scenario.targets),
+            steps=content.scenario.steps,
+            runs=content.summary.runs,
+            complete=content.provenance.results_version == RESULTS_VERSION,
+            checksum=content.checksum_of("tallies.npz"),
+        )
+        trajectories = KeptTrajectories(folder, content, facts)
+        return Record(content.raw["scenario"], facts, tallies, content.raw["provenance"], trajectories)
+    except RecordError:
+        raise
+    except Exception as error:  # whatever a damaged file does to those who read it
+        raise _damaged(folder, error) from error
 
 
-def _run_name(run: int) -> str:
+class KeptTrajectories(Mapping[int, Trajectory]):
+    """The trajectories of a record on disk: their shapes are checked here, each one's numbers when it is first used."""
+
+    def __init__(self, folder: Path, content: RecordContent, facts: Facts) -> None:
+        self._folder = folder
+        self._content = content
+        self._opened: dict[int, Trajectory] = {}
+        self._files = {run: self._files_of(run) for run in _runs_in(folder, content)}
+        for files in self._files.values():
+            check_trajectory(files, agents=facts.agents, targets=len(content.scenario.targets))
+
+    def __getitem__(self, run: int) -> Trajectory:
+        if run not in self._opened:
+            self._opened[run] = self._open(run)
+        return self._opened[run]
+
+    def __iter__(self) -> Iterator[int]:
+        return iter(self._files)
+
+    def __len__(self) -> int:
+        return len(self._files)
+
+    def __contains__(self, run: object) -> bool:
+        return run in self._files
+
+    def _files_of(self, run: int) -> dict[str, Path]:
+        """Where each array of a run is."""
+        name = _name_of(run)
+        if self._content.sha256 is None:
+            found = [file.name for file in (self._folder / name).iterdir() if file.suffix == ".npy"]
+        else:
+            found = [file.split("/")[1] for file in self._content.sha256 if file.startswith(f"{name}/")]
+        return {file.removesuffix(".npy"): self._folder / name / file for file in sorted(found)}
+
+    def _open(self, run: int) -> Trajectory:
+        try:
+            for file in self._files[run].values():
+                wanted = self._content.checksum_of(f"{_name_of(run)}/{file.name}")
+                if wanted is not None and sum_of_file(file) != wanted:
+                    raise ValueError(f"{_name_of(run)}/{file.name} is not what was written")
+            arrays = {name: np.load(file, mmap_mode="r") for name, file in self._files[run].items()}
+            check_frames(arrays, self._content.scenario.steps)
+            return Trajectory.from_arrays(arrays)
+        except Exception as error:  # as in open_record
+            raise _damaged(self._folder, error) from error
+
+
+def _runs_in(folder: Path, content: RecordContent) -> list[int]:
+    """Numbers of the runs that kept frames."""
+    if content.sha256 is None:
+        names = {each.name for each in folder.glob("run-*")}
+    else:
+        names = {file.split("/")[0] for file in content.sha256 if "/" in file}
+    for name in names:
+        if not re.fullmatch(r"run-\d{4,9}", name) or int(name[4:]) >= content.summary.runs:
+            raise ValueError(f"it has {name}, but {content.summary.runs} runs")
+    return sorted(int(name[4:]) for name in names)
+
+
+def _name_of(run: int) -> str:
     return f"run-{run:04d}"
+
+
+def _plain(part: Any) -> Any:
+    return tuple(part) if isinstance(part, list) else part
+
+
+def _damaged(folder: Path, error: Exception) -> RecordError:
+    told = " ".join(str(error).split())[:300] or type(error).__name__
+    return RecordError(str(folder), f"is damaged: {told}", "take it from a backup, or run the scenario again")

@@ -1,6 +1,6 @@
 """Record: what runs leave behind, with units and provenance."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -8,7 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.core.errors import UnknownNameError, no_attribute
-from shoal.core.sheet import Sheet, shown
+from shoal.core.sheet import Sheet
+from shoal.core.text import plain
 from shoal.metrics.each_target import each_target, loss_lengths
 from shoal.metrics.robustness import Robustness, robustness
 from shoal.metrics.summary import (
@@ -52,7 +53,7 @@ class Record:
     facts: Facts
     tallies: tuple[Tally, ...]
     provenance: dict[str, Any]
-    trajectories: dict[int, Trajectory] = field(default_factory=dict)
+    trajectories: Mapping[int, Trajectory] = field(default_factory=dict)
 
     def estimate(self, metric: str) -> Estimate:
         """Mean and 95 % confidence interval of a metric, see shoal.list_metrics(): over runs, or batches of one run.
@@ -184,7 +185,7 @@ class Record:
 
     def __repr__(self) -> str:
         """One line: what was run, and time on target."""
-        return f"<Record {self._head()}; time on target {shown(mean_text(self.estimate('time_on_target')))}>"
+        return f"<Record {self._head()}; time on target {plain(mean_text(self.estimate('time_on_target')))}>"
 
     def _repr_html_(self) -> str:
         """The table of the run for a notebook: every metric with its interval."""
@@ -204,7 +205,7 @@ class Record:
     def _head(self) -> str:
         runs, about = len(self.tallies), self.provenance
         return (
-            f"{shown(self.scenario['name'])}: {runs} run{'s' * (runs != 1)} of {self.scenario['steps']:,} steps, "
+            f"{plain(self.scenario['name'])}: {runs} run{'s' * (runs != 1)} of {self.scenario['steps']:,} steps, "
             f"seed {about['seed']}, scenario {about['scenario_hash']}"
         )
 

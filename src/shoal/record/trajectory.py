@@ -1,5 +1,7 @@
 """Where everybody was: frames of one run, in memory or streamed to disk as plain .npy files."""
 
+import hashlib
+import io
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.core.errors import UnknownNameError, no_attribute
-from shoal.core.sheet import Sheet, shown
+from shoal.core.sheet import Sheet
+from shoal.core.text import plain
 from shoal.engine.stage import Frames
 
 _PLAIN = ("step", "x", "y", "vx", "vy", "on_target", "alive", "target_x", "target_y", "target_present")
@@ -54,7 +57,7 @@ class Trajectory:
     def _head(self) -> str:
         (frames, agents), targets = self.x.shape, self.target_x.shape[1]
         steps = f" of steps {self.step[0]:,} to {self.step[-1]:,}" if frames else ""
-        memory = f"; memory: {shown(', '.join(self.memory))}" if self.memory else ""
+        memory = f"; memory: {plain(', '.join(self.memory))}" if self.memory else ""
         return f"of {frames:,} frames{steps}: {agents} agents, {targets} target{'s' * (targets != 1)}{memory}"
 
     if not TYPE_CHECKING:  # type checkers shall go on to know what there is
@@ -85,11 +88,6 @@ class Trajectory:
         arrays = [part.arrays() for part in parts]
         return cls.from_arrays({name: np.concatenate([each[name] for each in arrays]) for name in arrays[0]})
 
-    @classmethod
-    def open(cls, folder: Path) -> "Trajectory":
-        """The trajectory in a folder; arrays stay on disk until they are used."""
-        return cls.from_arrays({file.stem: np.load(file, mmap_mode="r") for file in sorted(folder.glob("*.npy"))})
-
 
 class _Memory(dict[str, npt.NDArray[np.float64]]):
     """Fields by name; one that is not there is answered with those that are."""
@@ -108,6 +106,7 @@ class TrajectoryWriter:
         self._folder = folder
         self._frames = frames
         self._files: dict[str, BinaryIO] = {}
+        self._sums: dict[str, Any] = {}
         folder.mkdir(parents=True)
 
     def append(self, part: Trajectory) -> None:
@@ -115,15 +114,26 @@ class TrajectoryWriter:
         for name, values in part.arrays().items():
             if name not in self._files:
                 self._files[name] = (self._folder / f"{name}.npy").open("wb")
+                self._sums[name] = hashlib.sha256()
                 header = {
                     "descr": np.lib.format.dtype_to_descr(values.dtype),
                     "fortran_order": False,
                     "shape": (self._frames, *values.shape[1:]),
                 }
-                np.lib.format.write_array_header_1_0(self._files[name], header)
-            self._files[name].write(np.ascontiguousarray(values).tobytes())
+                head = io.BytesIO()
+                np.lib.format.write_array_header_1_0(head, header)
+                self._write(name, head.getvalue())
+            self._write(name, np.ascontiguousarray(values).tobytes())
 
     def close(self) -> None:
         """Flush and close the files."""
         for file in self._files.values():
             file.close()
+
+    def sums(self) -> dict[str, str]:
+        """SHA-256 of every file, by the name of its array."""
+        return {name: each.hexdigest() for name, each in self._sums.items()}
+
+    def _write(self, name: str, content: bytes) -> None:
+        self._files[name].write(content)
+        self._sums[name].update(content)

@@ -22,6 +22,7 @@ from shoal.record.trajectory import Trajectory
 from shoal.run.compiling import mark_compiled
 from shoal.run.facts import facts_of
 from shoal.run.simulation import Simulation, count_frames
+from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source, load
 from shoal.scenario.schema import Scenario
 from shoal.version import RESULTS_VERSION, VERSION
@@ -64,6 +65,7 @@ def simulate(
     for name, number in (("runs", runs), ("jobs", jobs), ("every", every)):
         if number is not None and number < 1:
             raise ScenarioError(name, f"is {number}", "ask for 1 or more")
+    check_words(changes, also=("runs", "jobs", "every", "out", "progress"))
     scenario = load(scenario, **changes)
     begun, started = time.perf_counter(), datetime.now(UTC)
     with RecordFolder(out) if out is not None else nullcontext() as folder:

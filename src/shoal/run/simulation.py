@@ -11,6 +11,7 @@ from shoal.compiler.placed import Placed
 from shoal.core.agents import NEVER, Minds, as_records
 from shoal.core.errors import RecordError, ScenarioError, StrategyError
 from shoal.core.files import whole_file
+from shoal.core.text import plain
 from shoal.engine.phases import addresses
 from shoal.engine.rollout import set_out
 from shoal.engine.stage import Frames, Run, Stage, new_frames, new_scratch
@@ -81,6 +82,11 @@ class Simulation:
         lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
         _set_out(self._placed.address, places, lifetimes, losses_of(scenario))
         self.begin()
+
+    def __repr__(self) -> str:
+        """One line: of what, and how far."""
+        done = f"step {self.number:,} of {self.scenario.steps:,}"
+        return f"<Simulation of {plain(self.scenario.name)}, run {self.run}: {done}>"
 
     def begin(self) -> None:
         """Set up every agent's memory, as its strategy does before the first step."""

@@ -4,10 +4,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from shoal.core.errors import ScenarioError
-from shoal.scenario.edit import ORIGIN, READING, Table, apply
+from shoal.scenario.edit import ORIGIN, READING, TRACK, Table, apply
 from shoal.scenario.on_track import put_on_track, sign_tracks
 
-TRACK = ("target_track", "track_id")
 _DECIDED_BY_TRACK = ("steps", "time_step", "target_speed")
 
 

@@ -3,6 +3,8 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from shoal.core.text import plain
+
 
 def strategy_text(scenario: Mapping[str, Any]) -> str:
     """Names of the strategies: knn-pso; or levy-walk (scouts), knn-pso (trackers)."""
@@ -18,7 +20,7 @@ def degree_text(scenario: Mapping[str, Any]) -> str:
 
 
 def _of_fleets(scenario: Mapping[str, Any], value: Callable[[Mapping[str, Any]], Any]) -> str:
-    values = {fleet["name"]: str(value(fleet)) for fleet in scenario["fleets"]}
+    values = {plain(fleet["name"]): plain(str(value(fleet))) for fleet in scenario["fleets"]}
     if len(set(values.values())) == 1:
         return next(iter(values.values()))
     return ", ".join(f"{each} ({name})" for name, each in values.items())

@@ -2,12 +2,14 @@
 
 import re
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 from shoal.core.errors import ScenarioError, did_you_mean
+from shoal.core.text import cut, quoted
 from shoal.core.units import Unit
 from shoal.scenario.frozen import plain
 from shoal.scenario.schema import Scenario
@@ -16,6 +18,7 @@ from shoal.strategies.plugins import name_of
 
 Table = dict[str, Any]
 
+TRACK = ("target_track", "track_id")  # see change.py
 ORIGIN = "area.origin"
 READING = ("file", "id", "max_gap", "max_speed", "day_first")  # fields of a target: which fixes of a file are used
 
@@ -39,11 +42,27 @@ def apply(table: Table, changes: Mapping[str, Any]) -> Table:
         elif key in Scenario.model_fields:
             changed[key] = plain(value)
         else:
-            known = [*SHORTHANDS, *Scenario.model_fields]
-            hint = did_you_mean(key, known) or f"there are: {', '.join(known)}; or a path such as network.loss; "
-            raise ScenarioError(name, f"is no field of a scenario (value {value!r})", hint.rstrip("; "))
+            check_words({name: value})
+    emptied = {name.split(".")[0] for name, value in changes.items() if name.endswith(".count") and value == 0}
+    for name in emptied & {"fleets", "losses", "joins"}:  # none of them is no entry
+        changed[name] = [each for each in changed[name] if not (isinstance(each, dict) and each.get("count") == 0)]
     _drop_digests(changed, changes)
     return changed
+
+
+def check_words(changes: Mapping[str, Any], also: Iterable[str] = ()) -> None:
+    """Refuse what is no shorthand, field or path; `also` may have been meant.
+
+    Raises
+    ------
+    ScenarioError : it names the nearest that there is, or all
+    """
+    for name, value in changes.items():
+        key = name.replace("-", "_")
+        known = [*SHORTHANDS, *TRACK, *Scenario.model_fields, *also]
+        if "." not in name and key not in known:
+            hint = did_you_mean(key, known).rstrip() or f"there are: {', '.join(known)}; or a path such as network.loss"
+            raise ScenarioError(name, f"is no field of a scenario (value {quoted(value)})", hint)
 
 
 def _rank(change: tuple[str, Any]) -> int:
@@ -76,14 +95,57 @@ def set_path(table: Table, path: str, value: Any) -> None:
     here[last] = value
 
 
+def refuse_contradictions(table: Table, asked: Sequence[tuple[str, str]]) -> None:
+    """Refuse that two options set one field of a table; each is given as the user wrote it, and by its name in `apply`.
+
+    --agents and --fast go together: the first says how many, the second how many of them are fast.
+
+    Raises
+    ------
+    ScenarioError : two of them set the same field
+    """
+    setters: dict[str, tuple[str, str]] = {}
+    for option, name in asked:
+        key = name.replace("-", "_")
+        for field in _fields_of(table, name):
+            first, other = setters.setdefault(field, (option, key))
+            if (first, other) != (option, key) and {other, key} != {"agents", "fast"}:
+                both = first if first == option else f"{first} and {option}"
+                raise ScenarioError(both, f"set {field} twice", "leave out one of them")
+        if asked.count((option, name)) > 1:
+            raise ScenarioError(option, "is given twice", "leave out one of them")
+
+
+def _fields_of(table: Table, name: str) -> list[str]:
+    """The fields that a change sets, by their paths with numbers for the entries of lists."""
+    key = name.replace("-", "_")
+    if key == "neighbors":
+        return ["network.neighbors"]
+    if key == "strategy":
+        return ["strategy.name"]
+    if key in ("agents", "fast", "target_speed"):
+        part, field = ("targets", "speed") if key == "target_speed" else ("fleets", "count")
+        entries = table.get(part)
+        return [f"{part}.{number}.{field}" for number in range(len(entries) if isinstance(entries, list) else 0)]
+    parts = name.split(".")
+    if len(parts) > 1 and isinstance(entries := table.get(parts[0]), list):
+        with suppress(ScenarioError):
+            parts[1] = str(_index(entries, parts[1], name))
+    return ["strategy.name" if parts == ["strategy", "file"] else ".".join(parts)]
+
+
 def parse_value(text: str) -> Any:
-    """Read a value as TOML would (number, true, list, "text"), or null; anything else is text, such as 5 kn."""
+    """Read a value as TOML would (number, true, list, "text"), or null; anything else is text, such as 5 kn.
+
+    Numbers are decimal ones: 1_000 and 0x10 are text, too.
+    """
     if text == "null":
         return None
     try:
-        return tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
+        value = tomllib.loads(f"value = {text}")["value"]
+    except (ValueError, RecursionError):  # no TOML, or nothing that Python reads
         return text
+    return text if isinstance(value, (int, float)) and re.search("[0-9]_|0[xob]", text) else value
 
 
 def parse_assignment(text: str) -> tuple[str, Any]:
@@ -95,7 +157,7 @@ def parse_assignment(text: str) -> tuple[str, Any]:
     """
     path, equals, value = text.partition("=")
     if not equals or not re.fullmatch(r"[\w.\-]+", path.strip()):
-        raise ScenarioError(f"--set {text}", "is no assignment", "write path=value, such as network.neighbors=12")
+        raise ScenarioError(f"--set {cut(text)}", "is no assignment", "write path=value, such as network.neighbors=12")
     return path.strip(), parse_value(value.strip())
 
 
@@ -118,7 +180,7 @@ def _set_fast(table: Table, value: Any) -> None:
     fast, slow = _fastest_and_slowest(table, "fast")
     both = fast["count"] + slow["count"]
     if not isinstance(value, int) or not 0 <= value <= both:
-        raise ScenarioError("fast", f"is {value!r}", f"give a number of agents from 0 to {both}")
+        raise ScenarioError("fast", f"is {quoted(value)}", f"give a number of agents from 0 to {both}")
     fast["count"], slow["count"] = value, both - value
     table["fleets"] = [fleet for fleet in table["fleets"] if fleet["count"] != 0]
 
@@ -126,7 +188,7 @@ def _set_fast(table: Table, value: Any) -> None:
 def _set_agents(table: Table, value: Any) -> None:
     """So many agents in all, in the same shares of the fleets (largest remainders); k is lowered to fit."""
     if not isinstance(value, int) or value < 2:
-        raise ScenarioError("agents", f"is {value!r}", "give a number of agents, 2 or more")
+        raise ScenarioError("agents", f"is {quoted(value)}", "give a number of agents, 2 or more")
     fleets = _fleets(table, "agents")
     whole = sum(fleet["count"] for fleet in fleets)
     exact = [Fraction(fleet["count"] * value, whole) for fleet in fleets]
@@ -217,7 +279,7 @@ def _fleets(table: Table, option: str) -> list[Table]:
 
 
 def _index(entries: list[Any], part: str, where: str) -> int:
-    if part.isdigit() and int(part) < len(entries):
+    if re.fullmatch("[0-9]{1,9}", part) and int(part) < len(entries):
         return int(part)
     names = [str(each.get("name", n) if isinstance(each, dict) else n) for n, each in enumerate(entries)]
     if part in names:

@@ -5,9 +5,11 @@ from os import PathLike
 from typing import Annotated, Any, Self
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
 from shoal.core.errors import ScenarioError, did_you_mean
+from shoal.core.text import checked_name, quoted
+from shoal.core.units import Share
 
 
 class Frozen(BaseModel):
@@ -36,14 +38,16 @@ class Frozen(BaseModel):
             path = f"{part}.{first['loc'][0]}" if first["loc"] else part
             if first["type"] == "extra_forbidden":
                 hint = did_you_mean(str(first["loc"][-1]), fields) or f"fields here: {', '.join(fields)}"
-                raise ScenarioError(path, f"unknown field (value {first['input']!r})", hint.rstrip()) from None
-            raise ScenarioError(path, f"{first['input']!r}: {first['msg'].lower()}", "change the value") from None
+                raise ScenarioError(path, f"unknown field (value {quoted(first['input'])})", hint.rstrip()) from None
+            raise ScenarioError(path, f"{quoted(first['input'])}: {first['msg'].lower()}", "change the value") from None
 
 
 Positive = Field(gt=0)
 NotNegative = Field(ge=0)
 Count = Annotated[int, Field(strict=True, gt=0, le=10**12)]  # strict: neither true nor "15" is a number
-Chance = Annotated[float, Field(strict=True, ge=0, le=1)]
+Chance = Annotated[Share, Field(strict=True, ge=0, le=1)]
+Name = Annotated[str, Field(min_length=1), AfterValidator(checked_name)]
+MOST_ENTRIES = 1000  # of a list of a scenario
 
 
 def plain(value: Any) -> Any:

@@ -1,5 +1,6 @@
 """TOML to Scenario; a wrong field is refused with file, line, field, value, reason and the nearest valid name."""
 
+import io
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
@@ -12,11 +13,16 @@ import tomli_w
 from pydantic import ValidationError
 
 from shoal.core.errors import ScenarioError, StrategyError, did_you_mean
-from shoal.scenario.frozen import plain
+from shoal.core.text import cut, quoted
+from shoal.scenario.frozen import MOST_ENTRIES, plain
 from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Join, Loss, Motion, Network, Scenario
 from shoal.scenario.strategy_choice import StrategyParamsError, params_model
 from shoal.scenario.targets import TARGETS
 from shoal.strategies.plugins import find_strategy, load_strategies
+
+LARGEST = 10**6  # bytes of a scenario file
+_DEPTH = "a scenario is four levels deep at most"
+MOST_TOLD = 19  # problems of a scenario beside the first
 
 
 def presets() -> list[str]:
@@ -66,7 +72,9 @@ def table_of(source: Source) -> dict[str, Any]:
         return read_table(source)
     if not isinstance(source, (Scenario, Mapping)):
         names = ", ".join(presets())
-        raise ScenarioError("scenario", f"is {source!r:.60}", f"give a preset's name ({names}), a file, or a Scenario")
+        raise ScenarioError(
+            "scenario", f"is {quoted(source)}", f"give a preset's name ({names}), a file, or a Scenario"
+        )
     table: dict[str, Any] = plain(source)
     return table
 
@@ -89,11 +97,7 @@ def _refuse_outdated(scenario: Scenario) -> None:
 
 def read_table(source: str | PathLike[str]) -> dict[str, Any]:
     """Return the raw table of a preset's name or of a TOML file; files that it names become absolute paths."""
-    text = _text_of(source)
-    try:
-        table = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ScenarioError(str(source), f"is not valid TOML: {error}", "see https://toml.io for the syntax") from None
+    table = raw_table(source)
     folder = Path(source).resolve().parent
     chosen, targets = table.get("strategy"), table.get("targets")
     fleets = table.get("fleets")
@@ -104,15 +108,35 @@ def read_table(source: str | PathLike[str]) -> dict[str, Any]:
     return table
 
 
+def raw_table(source: str | PathLike[str]) -> dict[str, Any]:
+    """Return what a preset or a TOML file says, as it stands."""
+    text = _text_of(source)
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ScenarioError(str(source), f"is not valid TOML: {error}", "see https://toml.io for the syntax") from None
+    except RecursionError:
+        raise ScenarioError(str(source), "is nested too deeply", _DEPTH) from None
+    except ValueError:  # Python reads no integer of more than 4,300 digits
+        raise ScenarioError(str(source), "holds a number of thousands of digits", "write a shorter one") from None
+
+
 def scenario_from(table: Mapping[str, Any], *, where: str = "scenario", text: str = "") -> Scenario:
     """Validate a raw table; `where` and `text` (its TOML) make errors say file and line.
 
     Raises
     ------
-    ScenarioError : unknown, missing or wrong fields
+    ScenarioError : no table; unknown, missing or wrong fields
     StrategyError : the strategy's file or package cannot be loaded
     """
-    written: dict[str, Any] = plain(table)
+    if not isinstance(table, Mapping):
+        fix = "give the table of a scenario; shoal.load reads one from a file or a preset"
+        raise ScenarioError(where, f"{quoted(table)} is no table of fields", fix)
+    try:
+        _refuse_crowds(table, where)
+        written: dict[str, Any] = plain(table)
+    except RecursionError:
+        raise ScenarioError(where, "is nested too deeply", _DEPTH) from None
     if "strategy" in written:
         written["strategy"] = load_strategies(written["strategy"])
     if isinstance(written.get("fleets"), list):
@@ -124,6 +148,18 @@ def scenario_from(table: Mapping[str, Any], *, where: str = "scenario", text: st
     except ValidationError as error:
         problems = [(each["loc"], each) for each in error.errors()]
     raise _as_scenario_error(problems, written, where, text)
+
+
+def _refuse_crowds(part: Any, where: str, path: tuple[Any, ...] = ()) -> None:
+    """Refuse a table or list with more entries than any scenario has, before each of them is an error of its own."""
+    if not isinstance(part, (Mapping, list, tuple)):
+        return
+    if len(part) > MOST_ENTRIES:
+        raise ScenarioError(
+            f"{where} {_dotted(path)}".rstrip(), f"has {len(part):,} entries", f"write {MOST_ENTRIES:,} at most"
+        )
+    for key, each in part.items() if isinstance(part, Mapping) else enumerate(part):
+        _refuse_crowds(each, where, (*path, key))
 
 
 def _with_own_strategy(fleet: Any) -> Any:
@@ -160,12 +196,17 @@ def _text_of(source: str | PathLike[str]) -> str:
     preset = preset_text(str(source))
     if preset is not None:
         return preset
-    path = Path(source)
     try:
-        return path.read_text(encoding="utf-8-sig")
+        with Path(source).open("rb") as stream:  # bounded: a device or a wrong file may never end
+            content = stream.read(LARGEST + 1)
+        if len(content) > LARGEST:
+            raise ScenarioError(str(source), "is larger than 1 MB", "name a scenario's TOML file")
+        return io.TextIOWrapper(io.BytesIO(content), encoding="utf-8-sig").read()
     except UnicodeDecodeError:
         raise ScenarioError(str(source), "is not a text file", "name a TOML file or a preset") from None
     except (OSError, ValueError) as error:  # ValueError: a null byte
+        if isinstance(error, ScenarioError):
+            raise
         hint = did_you_mean(str(source), presets())
         found = isinstance(error, OSError) and not isinstance(error, FileNotFoundError) and str(source)
         reason = str(getattr(error, "strerror", error)) if found else "no preset and no file of this name"
@@ -188,7 +229,12 @@ def _as_scenario_error(
     path = _path(loc) + _field_named_by(problem, _path(loc))
     line = _line_of(path, text)
     place = ":".join(str(part) for part in (where, line) if part)
-    also = "".join(f"\n  also: {_dotted(_path(loc))}: {_explain(_path(loc), each, table)[0]}" for loc, each in others)
+    also = "".join(
+        f"\n  also: {cut(_dotted(_path(loc)))}: {_explain(_path(loc), each, table)[0]}"
+        for loc, each in others[:MOST_TOLD]
+    )
+    if len(others) > MOST_TOLD:
+        also += f"\n  and {len(others) - MOST_TOLD:,} more"
     return ScenarioError(f"{place} {_dotted(path)}".rstrip(), problem + also, fix)
 
 
@@ -198,7 +244,7 @@ def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tup
     known = _known_fields(path, table)
     if error["type"] == "extra_forbidden":
         hint = did_you_mean(str(path[-1]), known).rstrip() or f"fields here: {', '.join(known)}"
-        return f"unknown field (value {value!r})", hint
+        return f"unknown field (value {quoted(value)})", hint
     if error["type"] == "missing":
         return "is required and missing", f"add {path[-1]} = ..."
     if error["type"] == "value_error":
@@ -208,15 +254,18 @@ def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tup
         names = error["ctx"]["known"].split(", ")
         wrong = value.get("name") if isinstance(value, dict) else value
         hint = did_you_mean(str(wrong), names)
-        return f"no strategy is called {wrong!r}", f'{hint}strategies: {", ".join(names)}; or file = "my_strategy.py"'
+        return (
+            f"no strategy is called {quoted(wrong)}",
+            f'{hint}strategies: {", ".join(names)}; or file = "my_strategy.py"',
+        )
     if error["type"] == "union_tag_invalid":
         hint = did_you_mean(error["ctx"]["tag"], TARGETS)
-        return f"no target is of kind {error['ctx']['tag']!r}", f"{hint}kinds: {', '.join(TARGETS)}"
+        return f"no target is of kind {quoted(error['ctx']['tag'])}", f"{hint}kinds: {', '.join(TARGETS)}"
     if error["type"] == "union_tag_not_found":
         return "a target needs a kind", f"add kind = one of: {', '.join(TARGETS)}"
     if isinstance(value, (dict, list, tuple)):
         return f"{error['msg'].lower()}", "see `shoal scenario oceans2020` for a complete example"
-    return f"{value!r}: {error['msg'].lower()}", "change the value"
+    return f"{quoted(value)}: {error['msg'].lower()}", "change the value"
 
 
 def _path(loc: Sequence[Any]) -> tuple[Any, ...]:

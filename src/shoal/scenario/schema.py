@@ -6,13 +6,21 @@ from collections.abc import Mapping
 from html import escape
 from typing import Annotated, Any, Literal, Self, cast
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from shoal.core.errors import ScenarioError, ShoalError, did_you_mean
-from shoal.core.sheet import shown
-from shoal.core.units import Degrees, Kilograms, Meters, MetersPerSecond, Seconds
+from shoal.core.text import hides, plain, quoted
+from shoal.core.units import (
+    DegreesPerSecond,
+    Kilograms,
+    Meters,
+    MetersPerSecond,
+    MetersPerSecondSquared,
+    Seconds,
+)
 from shoal.scenario.choices import headline
-from shoal.scenario.frozen import Chance, Count, Frozen, NotNegative, Positive
+from shoal.scenario.durations import Steps, with_whole_steps
+from shoal.scenario.frozen import MOST_ENTRIES, Chance, Count, Frozen, Name, NotNegative, Positive
 from shoal.scenario.strategy_choice import StrategyChoice
 from shoal.scenario.targets import MovingTarget, Target
 
@@ -21,6 +29,12 @@ ARENA_UNITS = 20.0  # the paper's arena measures 20 units; one is the length its
 
 
 Degree = Count | Literal["all"]
+
+
+def _sentence(text: str) -> str:
+    if len(text) > 2000 or any(hides(each) for each in text if each not in "\n\t"):
+        raise ValueError(f"{quoted(text)} is no sentence; write 2000 characters at most, none of them a control one")
+    return text
 
 
 class Area(Frozen):
@@ -48,7 +62,7 @@ class Area(Frozen):
 class Fleet(Frozen):
     """Agents of one make."""
 
-    name: str = Field(min_length=1, description="what reports call it")
+    name: Name = Field(description="what reports call it")
     count: Count = Field(description="number of agents")
     max_speed: Annotated[MetersPerSecond, Positive] = Field(description="top speed [m/s]")
     mass: Annotated[Kilograms, Positive] | None = Field(default=None, description="mass of one agent [kg]; for reports")
@@ -70,11 +84,11 @@ class Fleet(Frozen):
     mean_lifetime: Annotated[Seconds, Positive] | None = Field(
         default=None, description="agents fail at a constant rate, after this time on average [s]; default: never"
     )
-    max_acceleration: Annotated[MetersPerSecond, Positive] | None = Field(
-        default=None, description="largest change of velocity per second [m/s per s]; default: any"
+    max_acceleration: Annotated[MetersPerSecondSquared, Positive] | None = Field(
+        default=None, description="largest change of velocity per second [m/s^2]; default: any"
     )
-    max_turn_rate: Annotated[Degrees, Positive] | None = Field(
-        default=None, description="largest turn per second [deg per s]; default: any"
+    max_turn_rate: Annotated[DegreesPerSecond, Positive] | None = Field(
+        default=None, description="largest turn per second [deg/s]; default: any"
     )
 
 
@@ -136,21 +150,25 @@ class Motion(Frozen):
 class Scenario(Frozen):
     """All a run needs, nothing it produces."""
 
-    name: str = Field(default="scenario", description="what reports call it")
-    description: str = Field(default="", description="one sentence")
+    name: Name = Field(default="scenario", description="what reports call it")
+    description: Annotated[str, AfterValidator(_sentence)] = Field(default="", description="one sentence")
     time_step: Annotated[Seconds, Positive] = Field(description="dt [s]")
-    steps: Count = Field(description="time-steps of a run")
+    steps: Steps = Field(description='time-steps of a run; or its duration, such as "2 h"')
     seed: Annotated[int, Field(strict=True, ge=0, lt=2**64)] = Field(
         default=1, description="run r of two scenarios with one seed share their chance"
     )
     area: Area
-    fleets: tuple[Fleet, ...] = Field(min_length=1, description="one or more makes of agents")
+    fleets: tuple[Fleet, ...] = Field(min_length=1, max_length=MOST_ENTRIES, description="one or more makes of agents")
     network: Network
     motion: Motion = Motion()
     strategy: StrategyChoice
-    targets: tuple[Target, ...] = Field(min_length=1, description="one or more targets")
-    losses: tuple[Loss, ...] = Field(default=(), description="agents that are lost during the run")
-    joins: tuple[Join, ...] = Field(default=(), description="agents that join during the run")
+    targets: tuple[Target, ...] = Field(min_length=1, max_length=MOST_ENTRIES, description="one or more targets")
+    losses: tuple[Loss, ...] = Field(
+        default=(), max_length=MOST_ENTRIES, description="agents that are lost during the run"
+    )
+    joins: tuple[Join, ...] = Field(default=(), max_length=MOST_ENTRIES, description="agents that join during the run")
+
+    _whole_steps = model_validator(mode="before")(with_whole_steps)
 
     def with_(self, **changes: Any) -> "Scenario":
         """Return a changed scenario, in the words of the command line, validated.
@@ -182,7 +200,7 @@ class Scenario(Frozen):
         for name in update:
             if name not in type(self).model_fields:
                 hint = did_you_mean(name, type(self).model_fields).rstrip() or f"scenario.with_(**{{{name!r}: ...}})"
-                raise ScenarioError(name, f"is no field of a scenario (value {update[name]!r})", hint)
+                raise ScenarioError(name, f"is no field of a scenario (value {quoted(update[name])})", hint)
         from shoal.scenario.load import scenario_from
 
         return cast(Self, scenario_from({**vars(self), **update}))
@@ -192,7 +210,7 @@ class Scenario(Frozen):
         try:
             table = self.model_dump(mode="json")
             return (
-                f"<Scenario {shown(self.name)}: {shown(headline(table))}; "
+                f"<Scenario {plain(self.name)}: {plain(headline(table))}; "
                 f"{self.steps:,} steps of {self.time_step:g} s, seed {self.seed}, {self.hash}>"
             )
         except Exception:  # one made by force must be shown, too
@@ -281,7 +299,7 @@ class Scenario(Frozen):
         named |= {f"joins.{number}": join.fleet for number, join in enumerate(self.joins)}
         for name, fleet in named.items():
             if fleet is not None and fleet not in self.fleet_names:
-                raise ValueError(f"{name}.fleet is {fleet!r}, no fleet; there are: {', '.join(self.fleet_names)}")
+                raise ValueError(f"{name}.fleet is {quoted(fleet)}, no fleet; there are: {', '.join(self.fleet_names)}")
         return self
 
     @model_validator(mode="after")

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field, create_model
 from pydantic import ValidationError as PydanticError
 from pydantic_core import PydanticCustomError, core_schema
 
-from shoal.core.units import Choice, Says, Unit
+from shoal.core.units import Choice, Range, Says, Unit
 from shoal.strategies import CATALOGUE, Strategy
 from shoal.strategies.installed import installed_names, load_all_installed
 from shoal.strategies.plugins import find_strategy, load_strategies, source_of
@@ -151,12 +151,19 @@ def _model_of(name: str, key: Hashable) -> type[BaseModel]:
             fields[field] = (Literal[choice.words], Field(default=choice.words[default], description=description))
         else:
             unit = _mark(hints[field], Unit)
-            most = 2**53 if type(default) is int else None
-            kind: Any = Annotated[type(default), Field(strict=True, ge=most and -most, le=most)]
+            limits = _limits(_mark(hints[field], Range), type(default))
+            kind: Any = Annotated[type(default), Field(strict=True, **limits)]
             kind = Annotated[kind, unit] if unit else kind
             fields[field] = (kind, Field(default=default, description=description))
     config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
     return create_model(f"{params.__name__}Table", __config__=config, __doc__=params.__doc__, **fields)
+
+
+def _limits(told: Range | None, kind: type[Any]) -> dict[str, Any]:
+    """What a number may be, in pydantic's words."""
+    if told:
+        return {"gt" if told.open else "ge": told.least, "le": told.most}
+    return {"ge": -(2**53), "le": 2**53} if kind is int else {}
 
 
 def _mark(hint: Any, kind: type[Any]) -> Any:

@@ -2,10 +2,16 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from shoal.core.units import Degrees, Meters, MetersPerSecond, Seconds
 from shoal.scenario.frozen import Count, Frozen, NotNegative, Positive
+
+
+def _path(text: str) -> str:
+    if "\0" in text:
+        raise ValueError("file holds a NUL, which no path can; name a file")
+    return text
 
 
 class StillTarget(Frozen):
@@ -107,7 +113,7 @@ class TrackTarget(Frozen):
     """A recorded track in longitude and latitude: CSV, NMEA, GPX, KML, GeoJSON or NetCDF."""
 
     kind: Literal["track"] = "track"
-    file: str = Field(
+    file: Annotated[str, AfterValidator(_path)] = Field(
         min_length=1, description="CSV, NMEA, GPX, KML, GeoJSON or CF NetCDF file; relative to the scenario's folder"
     )
     id: str | None = Field(default=None, description='which track of the file, as "COLUMN=VALUE"; "all" joins all')

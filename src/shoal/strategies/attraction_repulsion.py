@@ -11,20 +11,24 @@ import math
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import uniform
-from shoal.core.units import Meters, Says
+from shoal.core.units import Meters, Range, Says
 from shoal.strategies.contract import strategy
 
 
 class AttractionRepulsion(NamedTuple):
     """Parameters."""
 
-    inertia: Annotated[float, Says("omega: share of the velocity kept from one step to the next")] = 0.7
-    social: Annotated[float, Says("c: largest share of the way to the leader wanted in one step")] = 0.5
-    equilibrium: Annotated[Meters, Says("r_eq: distance at which two agents neither attract nor repel")] = 2.4
-    attraction: Annotated[float, Says("a: share of the way to a far neighbor wanted in one step")] = 0.002
-    repulsion: Annotated[float, Says("b: share of the distance to a near neighbor by which it pushes in one step")] = (
-        0.5
+    inertia: Annotated[float, Range(), Says("omega: share of the velocity kept from one step to the next")] = 0.7
+    social: Annotated[float, Range(), Says("c: largest share of the way to the leader wanted in one step")] = 0.5
+    equilibrium: Annotated[
+        Meters, Range(open=True), Says("r_eq: distance at which two agents neither attract nor repel")
+    ] = 2.4
+    attraction: Annotated[float, Range(open=True), Says("a: share of the way to a far neighbor wanted in one step")] = (
+        0.002
     )
+    repulsion: Annotated[
+        float, Range(open=True), Says("b: share of the distance to a near neighbor by which it pushes in one step")
+    ] = 0.5
 
 
 def influence(me, other, params):

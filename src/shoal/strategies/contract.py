@@ -19,6 +19,7 @@ from typing import Any
 from shoal.compiler.kernel import TypingError, kernel, overload
 from shoal.core.errors import StrategyError
 from shoal.core.messages import Heard
+from shoal.core.text import checked_name
 from shoal.strategies.rank import asks_for_rank
 
 
@@ -119,6 +120,10 @@ def strategy(
             raise StrategyError(
                 where, f"params={params!r} is no NamedTuple class", "write class Params(NamedTuple): ..."
             )
+        try:
+            checked_name(name)
+        except ValueError as error:
+            raise StrategyError(where, str(error), "name it by words, such as my-search") from None
         bare = [field for field in fields if field not in params._field_defaults]
         if bare:
             raise StrategyError(where, f"parameter {bare[0]!r} has no default", f"write {bare[0]}: float = ...")

@@ -7,7 +7,7 @@ Eqs. 2-4, Algorithms 1 and 2. The predecessor (Kwa, Leong Kit, Bouffanais, AAMAS
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import uniform
-from shoal.core.units import Choice, Meters, Says
+from shoal.core.units import Choice, Meters, Range, Says
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import adapted, inverse_power, power
 
@@ -15,17 +15,17 @@ from shoal.strategies.parts import adapted, inverse_power, power
 class KnnPso(NamedTuple):
     """Parameters; the paper adds pure numbers per step, so social and repulsion_step act once per time-step."""
 
-    inertia: Annotated[float, Says("omega: share of the velocity kept from one step to the next")] = 1.0
-    social: Annotated[float, Says("c: largest share of the way to the leader wanted in one step")] = 0.5
+    inertia: Annotated[float, Range(), Says("omega: share of the velocity kept from one step to the next")] = 1.0
+    social: Annotated[float, Range(), Says("c: largest share of the way to the leader wanted in one step")] = 0.5
     social_draws: Annotated[int, Choice(("scalar", "per-axis")), Says("r: one draw for both axes, or one each")] = 0
     follow: Annotated[int, Choice(("nearest", "lowest-index")), Says("which neighbor on target is followed")] = 0
-    repulsion_start: Annotated[Meters, Says("a_R at the start")] = 0.5013256549262001
-    repulsion_min: Annotated[Meters, Says("a_R shrinks while above this and somebody is on target")] = 0.375
-    repulsion_max: Annotated[Meters, Says("a_R grows while below this and nobody is on target")] = 1.5
-    delta: Annotated[Meters, Says("growth of a_R in one step with nobody on target")] = 0.01
-    shrink: Annotated[float, Says("deltas that a_R shrinks by in one step with somebody on target")] = 1.0
-    repulsion_exponent: Annotated[float, Says("d: steepness of the repulsion")] = 6.0
-    repulsion_step: Annotated[Meters, Says("way that a neighbor at distance a_R pushes in one step")] = 1.0
+    repulsion_start: Annotated[Meters, Range(), Says("a_R at the start")] = 0.5013256549262001
+    repulsion_min: Annotated[Meters, Range(), Says("a_R shrinks while above this and somebody is on target")] = 0.375
+    repulsion_max: Annotated[Meters, Range(), Says("a_R grows while below this and nobody is on target")] = 1.5
+    delta: Annotated[Meters, Range(), Says("growth of a_R in one step with nobody on target")] = 0.01
+    shrink: Annotated[float, Range(), Says("deltas that a_R shrinks by in one step with somebody on target")] = 1.0
+    repulsion_exponent: Annotated[float, Range(0.0, 100.0), Says("d: steepness of the repulsion")] = 6.0
+    repulsion_step: Annotated[Meters, Range(), Says("way that a neighbor at distance a_R pushes in one step")] = 1.0
 
 
 def begin(me, memory, params, draw):

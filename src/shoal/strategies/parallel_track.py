@@ -9,7 +9,7 @@ before the edges of the row. By the book: who sees a target carries on.
 from typing import Annotated, NamedTuple
 
 from shoal.compiler.kernel import kernel
-from shoal.core.units import Says
+from shoal.core.units import Range, Says
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import on_snake, rows_of, toward, way_point_reached
 
@@ -17,7 +17,9 @@ from shoal.strategies.parts import on_snake, rows_of, toward, way_point_reached
 class ParallelTrack(NamedTuple):
     """Parameters."""
 
-    spacing: Annotated[float, Says("largest track spacing, in diameters of what the sensor sees")] = 1.0
+    spacing: Annotated[float, Range(open=True), Says("largest track spacing, in diameters of what the sensor sees")] = (
+        1.0
+    )
 
 
 def begin(me, memory, params, draw):

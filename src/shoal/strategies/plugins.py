@@ -72,12 +72,16 @@ def _load_file(choice: dict[str, Any]) -> dict[str, Any]:
         or its source is not the one that the table insists on
     """
     path = Path(choice["file"])
-    if path.suffix != ".py" and path.is_file():
-        raise StrategyError(str(path), "is no Python file", "name a file that ends in .py")
     try:
+        if path.suffix != ".py" and path.is_file():
+            raise StrategyError(str(path), "is no Python file", "name a file that ends in .py")
         text = path.read_bytes()
     except OSError as error:
         raise StrategyError(str(path), f"cannot be read: {error.strerror}", "name a Python file") from None
+    except ValueError as error:
+        if isinstance(error, StrategyError):
+            raise
+        raise StrategyError(str(path), "holds a NUL, which no path can", "name a Python file") from None
     source = _hash(text)
     if choice.get("source") not in (None, source):
         raise StrategyError(

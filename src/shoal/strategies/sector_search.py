@@ -10,7 +10,7 @@ import math
 from typing import Annotated, NamedTuple
 
 from shoal.compiler.kernel import kernel
-from shoal.core.units import Says
+from shoal.core.units import Range, Says
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import inside, middle_of_part, size_of_part, toward, way_point_reached
 
@@ -18,7 +18,9 @@ from shoal.strategies.parts import inside, middle_of_part, size_of_part, toward,
 class SectorSearch(NamedTuple):
     """Parameters."""
 
-    size: Annotated[float, Says("radius, in that of a disc as large as the agent's part of the area")] = 1.0
+    size: Annotated[
+        float, Range(open=True), Says("radius, in that of a disc as large as the agent's part of the area")
+    ] = 1.0
 
 
 def begin(me, memory, params, draw):

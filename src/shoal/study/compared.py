@@ -26,6 +26,7 @@ from shoal.experiments.paired import need_scipy
 from shoal.experiments.replicate import Row
 from shoal.experiments.sweep import Progress
 from shoal.metrics.summary import METRICS
+from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source
 from shoal.strategies.plugins import name_of
 from shoal.study.folder import positive, progress_of, store_folder
@@ -188,6 +189,7 @@ def compare(
     MissingExtraError : scipy is not installed (extra: sweep)
     """
     positive(runs=runs, jobs=jobs)
+    check_words(changes, also=("runs", "vary", "metric", "baseline", "jobs", "out", "progress"))
     named = [strategies] if isinstance(strategies, (str, Path)) or callable(strategies) else list(strategies)
     return compared(
         [str(name_of(each)) for each in named],

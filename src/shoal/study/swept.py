@@ -14,6 +14,7 @@ from shoal.experiments.results import aggregate, seal
 from shoal.experiments.sweep import Stop
 from shoal.experiments.sweep import sweep as run_sweep
 from shoal.plot import curves
+from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source, load
 from shoal.study.folder import positive, progress_of, store_folder
 from shoal.study.varied import Values, varied, written
@@ -151,6 +152,9 @@ def sweep(
     if mode not in modes:
         raise UnknownNameError.of("mode", mode, modes)
     positive(runs=runs, jobs=jobs, max_runs=max_runs)
+    check_words(
+        changes, also=("vary", "runs", "mode", "until_ci", "max_runs", "independent", "jobs", "out", "progress")
+    )
     design = Design(scenario, tuple(modes[mode](varied(vary))), runs)
     name = str(scenario) if isinstance(scenario, (str, Path)) else load(scenario).name
     with store_folder(Path(out) if out is not None else None) as folder:

@@ -20,7 +20,7 @@ def varied(vary: Mapping[str, Values]) -> dict[str, list[Any]]:
     ------
     ScenarioError : `vary` is no mapping, or a field has no values
     """
-    if not isinstance(vary, Mapping):
+    if not isinstance(vary, Mapping) or not all(isinstance(name, str) for name in vary):
         raise ScenarioError("vary", f"is {vary!r:.60}", 'write vary={"neighbors": [10, 20, 30]}')
     return {_word(name): _values(name, values) for name, values in vary.items()}
 

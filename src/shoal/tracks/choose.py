@@ -11,7 +11,7 @@ from shoal.core.errors import TrackError
 from shoal.tracks import names
 from shoal.tracks.numbers import without_fills
 from shoal.tracks.table import Fixes, Labels, Table, same
-from shoal.tracks.times import unix_times
+from shoal.tracks.times import FIRST_UNIX, LAST_UNIX, unix_times
 from shoal.tracks.vehicles import tells_vehicles_apart
 from shoal.tracks.wanted import Wanted, column_of, refuse_several, unknown_value
 
@@ -120,7 +120,15 @@ def _times(
 ) -> tuple[NDArray[np.float64], list[str]]:
     """Unix times [s] of the rows, NaN where one has no position or time."""
     if isinstance(table.time, np.ndarray):
-        return np.where(present, np.round(table.time[rows], 6), np.nan), []
+        unix = np.where(present, np.round(table.time[rows], 6), np.nan)
+        outside = np.flatnonzero((unix < FIRST_UNIX) | (unix > LAST_UNIX))
+        if outside.size:
+            raise TrackError(
+                table.place(int(table.line[rows[outside[0]]])),
+                f"time {unix[outside[0]]:g} is no unix time in the years 1 to 9999",
+                "check the units of time, or remove the fix",
+            )
+        return unix, []
     here = rows[present]
     texts = [table.time[i] for i in here.tolist()]
     times, notes = unix_times(

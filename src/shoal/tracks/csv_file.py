@@ -2,7 +2,7 @@
 
 import csv
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 from typing import TextIO
@@ -144,8 +144,8 @@ class _Rows:
         return Table(
             columns=self.dialect.columns,
             time=self.time,
-            lat=np.concatenate([none, *self.lat]),
-            lon=np.concatenate([none, *self.lon]),
+            lat=_signed(np.concatenate([none, *self.lat]), labels, "lat", "NS"),
+            lon=_signed(np.concatenate([none, *self.lon]), labels, "lon", "EW"),
             line=np.array(self.line, np.int64),
             labels=labels,
             place=lambda line: f"{self.path}:{line}",
@@ -153,6 +153,16 @@ class _Rows:
             notes=notes,
             day_first=self.dialect.day_first,
         )
+
+
+def _signed(degrees: NDArray[np.float64], labels: Mapping[str, Labels], axis: str, sides: str) -> NDArray[np.float64]:
+    """Degrees south or west below zero, where a column of letters says so."""
+    for name, column in labels.items():
+        letters = [value[:1].upper() for value in column.values]
+        if names.HEMISPHERES[axis].fullmatch(names.plain(name)) and {""} != {*letters} <= {*sides, ""}:
+            negative = np.array([letter == sides[1] for letter in letters])
+            return np.where(negative[column.codes], -np.abs(degrees), degrees)
+    return degrees
 
 
 def _joined(columns: Sequence[tuple[str, ...]], at: Sequence[int]) -> list[str]:

@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 
 TIME_NAMES = (
-    "time", "timestamp", "datetime", "basedatetime", "timeutc", "utctime", "timestamputc", "utctimestamp",
+    "time", "timestamp", "tstamp", "datetime", "basedatetime", "timeutc", "utctime", "timestamputc", "utctimestamp",
     "datetimeutc", "utcdatetime", "msgtime", "msgt", "gpstime", "fixtime", "positiontime", "timeposition", "obstime",
     "recordedat", "createdat", "receivedat", "ts", "epoch", "unixtime", "unixtimestamp", "posixtime", "timestampms",
     "dtposutc", "utc", "date",
@@ -17,6 +17,10 @@ LON_NAMES = (
 TIME_LIKE = r"(?!.*(eta|interval|step|zone|dwell|travel|elapsed)).*(time|timestamp|datetime)(utc|gmt|z)?"
 LAT_LIKE = r"(?!.*(err|std|acc|var|min|max|unc))(lat.*|.*latitude)"
 LON_LIKE = r"(?!.*(err|std|acc|var|min|max|unc))(lon.*|lng.*|.*longitude)"
+HEMISPHERES = {  # columns that say on which side a latitude or a longitude without a sign lies
+    "lat": re.compile(r"ns(ind\w*|hemi\w*)?|(lat|latitude)(ns|dir|direction|ref|hemi\w*|ind\w*|side)"),
+    "lon": re.compile(r"ew(ind\w*|hemi\w*)?|(lon|long|longitude)(ew|dir|direction|ref|hemi\w*|ind\w*|side)"),
+}
 DATE_NAMES = ("date", "dateutc", "utcdate", "ymd", "gpsdate")
 CLOCK_NAMES = ("time", "timeutc", "utctime", "clock", "hms", "gpstime", "utc")
 PARTS = ("year", "month", "day", "hour", "minute", "second")

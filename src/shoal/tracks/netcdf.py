@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from shoal.core.errors import MissingExtraError, ShoalError, TrackError
 from shoal.tracks import names
+from shoal.tracks.crash import is_safe
 from shoal.tracks.names import LAT_NAMES, LON_NAMES, TIME_NAMES
 from shoal.tracks.table import Table, comparable, labels
 from shoal.tracks.wanted import Wanted
@@ -36,14 +37,20 @@ def netcdf_table(path: Path, wanted: Wanted) -> Table:
     MissingExtraError : netCDF4 is not installed
     """
     netcdf4 = _netcdf4()
+    if not is_safe(lambda: _read(path, netcdf4, wanted)):
+        raise TrackError(str(path), "is damaged: the NetCDF library fails on it", "export it again")
     try:
-        with warnings.catch_warnings(), netcdf4.Dataset(path) as dataset:
-            warnings.simplefilter("ignore")  # netCDF4's own, of attributes that it does not use
-            return _trajectories(path, netcdf4, dataset, wanted)
+        return _read(path, netcdf4, wanted)
     except (ShoalError, OSError):
         raise
     except Exception as error:  # what netCDF4 raises on a damaged file has no common class
         raise TrackError(str(path), f"cannot be read ({error})", "export it again") from error
+
+
+def _read(path: Path, netcdf4: Any, wanted: Wanted) -> Table:
+    with warnings.catch_warnings(), netcdf4.Dataset(path) as dataset:
+        warnings.simplefilter("ignore")  # netCDF4's own, of attributes that it does not use
+        return _trajectories(path, netcdf4, dataset, wanted)
 
 
 def _trajectories(path: Path, netcdf4: Any, dataset: "netCDF4.Dataset", wanted: Wanted) -> Table:

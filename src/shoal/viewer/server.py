@@ -47,7 +47,7 @@ def serving(app: "Starlette", host: str = LOCAL, port: int = 0) -> Iterator[str]
     ShoalError : the address cannot be had
     MissingExtraError : uvicorn or websockets is not installed
     """
-    _require_libraries()
+    require_libraries()
     import uvicorn
 
     listener = listen(host, port)
@@ -75,7 +75,7 @@ def serving(app: "Starlette", host: str = LOCAL, port: int = 0) -> Iterator[str]
 
 def live_app(worker: Worker) -> "Starlette":
     """The page, and the WebSocket through which it sees and controls the worker's session."""
-    _require_libraries()
+    require_libraries()
     from starlette.applications import Starlette
     from starlette.routing import WebSocketRoute
 
@@ -90,7 +90,7 @@ def live_app(worker: Worker) -> "Starlette":
 
 def page_app(page: str) -> "Starlette":
     """One page that needs nothing else and says its policy itself."""
-    _require_libraries()
+    require_libraries()
     from starlette.applications import Starlette
 
     return Starlette(routes=_routes({"/": (page.encode(), "text/html")}, "frame-ancestors 'none'"))
@@ -111,7 +111,13 @@ def _routes(files: dict[str, tuple[bytes, str]], policy: str) -> list[Any]:
     return [route(path, *file) for path, file in files.items()]
 
 
-def _require_libraries() -> None:
+def require_libraries() -> None:
+    """Refuse to begin without them.
+
+    Raises
+    ------
+    MissingExtraError : one is not installed
+    """
     for name in ("starlette", "uvicorn", "websockets"):
         if find_spec(name) is None:
             raise MissingExtraError.of(name, "viewer", "watching a run in a browser")

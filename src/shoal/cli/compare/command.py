@@ -5,6 +5,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from shoal.cli.places import check_places
 from shoal.cli.startup import load_compiler
 from shoal.cli.whole import MaybeWhole
 
@@ -73,10 +74,7 @@ def compare(
     from shoal.experiments.paired import need_scipy
 
     need_scipy()
-    if figure:
-        from shoal.drawing.files import figure_format
-
-        figure_format(figure)  # refused before the runs, not after
+    check_places(out, figure)
     check_positive(runs=runs, steps=steps, jobs=jobs)
     if not suite:
         if markdown:

@@ -1,11 +1,11 @@
 """shoal compare STRATEGIES: in one scenario, or in every variation of it."""
 
 import json
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 from shoal.cli.compare.runs import tell_failures
+from shoal.cli.output import write
 from shoal.cli.progress import note
 from shoal.cli.sweep_progress import sweep_progress
 
@@ -29,12 +29,15 @@ def compare_strategies(
     """Run what is missing, and print a table per condition."""
     from shoal.cli.compare.data import comparison_data
     from shoal.cli.compare.table import print_comparison
-    from shoal.cli.options import given_changes
+    from shoal.cli.options import as_options, check_asked, given_changes
     from shoal.experiments.compiled_first import compiled_first
     from shoal.experiments.design import parse_vary
     from shoal.experiments.executors import in_threads
     from shoal.study.compared import RUNS, compared
 
+    options = [(f"--{name}", name) for name, value in (("steps", steps), ("seed", seed)) if value is not None]
+    asked = [("STRATEGIES", "strategy"), *options, *as_options("--set", assignments), *as_options("--vary", vary)]
+    check_asked(scenario, asked)
     with sweep_progress(out) as report:
         found = compared(
             named,
@@ -49,15 +52,15 @@ def compare_strategies(
             report=report,
         )
     tell_failures(row for _, strategies in found.found for rows in strategies.values() for row in rows)
+    about = {"scenario": scenario, "runs": found.runs, "steps": found.steps, "seed": found.seed}
+    if as_json:
+        write(json.dumps(comparison_data(found.comparison, metric, found.direction, about)) + "\n")
+    else:
+        print_comparison(found.comparison, metric, found.direction, about)
     if figure:
         from shoal.drawing.files import save_figure
 
         save_figure(found.plot(), figure)
         note(f"figure: {figure}")
-    about = {"scenario": scenario, "runs": found.runs, "steps": found.steps, "seed": found.seed}
-    if as_json:
-        sys.stdout.write(json.dumps(comparison_data(found.comparison, metric, found.direction, about)) + "\n")
-    else:
-        print_comparison(found.comparison, metric, found.direction, about)
     if out:
         note(f"all runs: {out} (shoal results {out})")

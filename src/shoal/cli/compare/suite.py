@@ -1,12 +1,12 @@
 """shoal compare --suite: a leaderboard over fixed conditions."""
 
 import json
-import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
 
 from shoal.cli.compare.runs import tell_failures
+from shoal.cli.output import write
 from shoal.cli.progress import note
 from shoal.cli.sweep_progress import sweep_progress
 
@@ -27,6 +27,7 @@ def compare_suite(
     """Run what is missing of a suite, and print its leaderboard."""
     from shoal.cli.compare.data import leaderboard_data
     from shoal.cli.compare.table import print_leaderboard
+    from shoal.core.files import check_file
     from shoal.experiments.compiled_first import compiled_first
     from shoal.experiments.contenders import contenders
     from shoal.experiments.executors import in_threads
@@ -41,6 +42,7 @@ def compare_suite(
     everybody = contenders(named or sorted(CATALOGUE))
     if markdown:
         page_around(markdown, name)  # refused before the runs, not after
+        check_file(markdown)
     titles = [each.name for each in suite.conditions]
 
     def begin(title: str) -> None:
@@ -55,13 +57,13 @@ def compare_suite(
     if markdown:
         write_page(board, markdown, named)
         note(f"page: {markdown}")
+    if as_json:
+        write(json.dumps(leaderboard_data(board)) + "\n")
+    else:
+        print_leaderboard(board)
     if figure:
         from shoal.drawing.files import save_figure
 
         save_figure(leaderboard_figure(board), figure)
         note(f"figure: {figure}")
-    if as_json:
-        sys.stdout.write(json.dumps(leaderboard_data(board)) + "\n")
-    else:
-        print_leaderboard(board)
     note(f"{time.monotonic() - begun:.0f} s" + (f"; all runs: a sweep per condition in {out}" if out else ""))

@@ -5,9 +5,8 @@ from typing import Any
 
 from rich.console import Console
 from rich.table import Table
-from rich.text import Text
 
-from shoal.cli.console import results_console
+from shoal.cli.console import results_console, styled
 from shoal.experiments.comparison import Comparison, Condition, Standing
 from shoal.experiments.comparison_words import (
     REFERENCES,
@@ -30,7 +29,8 @@ def print_comparison(comparison: Comparison, metric: str, direction: int, about:
     console = results_console()
     words = {1: "more is better", -1: "less is better", 0: "neither more nor less is better"}[direction]
     runs = f"{about['runs']} run{'s' * (about['runs'] > 1)}"
-    console.print(f"[bold]{about['scenario']}[/bold]: {runs} of {about['steps']:,} steps, seed {about['seed']}")
+    told = f": {runs} of {about['steps']:,} steps, seed {about['seed']}"
+    console.print(styled(about["scenario"], "bold") + styled(told, ""))
     unit = METRICS[metric].unit
     console.print(
         f"{metric.replace('_', ' ')}{'' if unit == '1' else f' [{unit}]'}: {METRICS[metric].sentence}; {words}"
@@ -44,7 +44,7 @@ def print_comparison(comparison: Comparison, metric: str, direction: int, about:
     for condition in comparison.conditions:
         console.print()
         if condition.name:
-            console.print(f"[bold]{condition.name}[/bold]")
+            console.print(styled(condition.name, "bold"))
         console.print(_table(condition, columns))
         if direction:
             ranked = sum(each.rank is not None for each in condition.standings)
@@ -60,10 +60,11 @@ def print_comparison(comparison: Comparison, metric: str, direction: int, about:
 def print_leaderboard(board: Leaderboard) -> None:
     """Print the ranking by score, then the shares under every condition."""
     console, suite = results_console(), board.suite
-    console.print(
-        f"[bold]{suite.name}[/bold]: {suite.runs} runs of {suite.steps:,} steps under each of {len(suite.conditions)} "
-        f"conditions, seed {suite.seed}, suite hash {board.hash}"
+    told = (
+        f": {suite.runs} runs of {suite.steps:,} steps under each of {len(suite.conditions)} conditions, seed "
+        f"{suite.seed}, suite hash {board.hash}"
     )
+    console.print(styled(suite.name, "bold") + styled(told, ""))
     console.print("score: mean share over all conditions\n")
     columns: list[_Column] = [
         ("score", value_text),
@@ -108,7 +109,7 @@ def _fill(table: Table, condition: Condition, texts: Sequence[Callable[[Standing
     below = False
     for each in condition.standings:
         if each.informed and not below:
-            table.add_row("", Text("know the target:", style="dim"))
+            table.add_row("", styled("know the target:", "dim"))
             below = True
         look = "bold" if each.strategy == LATTICE else "dim" if each.informed else ""
         table.add_row(rank_text(each), each.strategy, *(text(each) for text in texts), style=look)

@@ -1,0 +1,30 @@
+"""SIGTERM (batch systems, kill) and SIGHUP (a closed terminal) end a command as Ctrl-C does."""
+
+import signal
+from types import FrameType
+
+
+class Ended(KeyboardInterrupt):
+    """A signal asks us to end; `number` is which."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+def heed_signals() -> None:
+    """Raise Ended on them from now on, but for one that was to be ignored, as nohup says."""
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)  # Windows has no SIGHUP
+        if number is not None and signal.getsignal(number) is signal.SIG_DFL:
+            signal.signal(number, _end)
+
+
+def exit_code(interrupt: KeyboardInterrupt) -> int:
+    """128 + the number of the signal, as shells have it: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP."""
+    eval("0")  # makes Python forget that it saw one in code from a string, as numba's; it would kill us with SIGINT
+    return 128 + (interrupt.number if isinstance(interrupt, Ended) else signal.SIGINT)
+
+
+def _end(number: int, _: FrameType | None) -> None:
+    raise Ended(number)

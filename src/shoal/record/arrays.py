@@ -1,0 +1,158 @@
+"""The arrays of a record: read only where they are what the record says they are."""
+
+import hashlib
+import re
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.metrics.summary import Facts
+from shoal.metrics.tally import Tally, new_tally
+
+_MOST_BATCHES = 1000
+_LARGEST = 1e30  # of what a swarm can be, in m, m/s or the units of its memory
+_AT_ONCE = 1_000_000  # values looked at together
+_KINDS = {"step": np.int64, "on_target": np.bool_, "alive": np.bool_, "target_present": np.bool_}  # others: float64
+
+
+def sum_of_file(file: Path) -> str:
+    """SHA-256 of a file."""
+    with file.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+# --- tallies ---
+
+
+def read_tallies(
+    file: Path, facts: Facts, *, targets: int, steps: int, runs: int, complete: bool, checksum: str | None
+) -> tuple[Tally, ...]:
+    """Return the tally of every run; nothing is read before its shape is known to be right.
+
+    Parameters
+    ----------
+    complete : refuse a file without some sum; else, of an older results version, that is NaN
+    checksum : SHA-256 of the file, if it is known
+
+    Raises
+    ------
+    ValueError, OSError, BadZipFile and others of zipfile : damaged
+    """
+    if checksum is not None and sum_of_file(file) != checksum:
+        raise ValueError("tallies.npz is not what was written")
+    with zipfile.ZipFile(file) as archive:
+        names = set(archive.namelist())
+        for run in range(runs):
+            if f"{run}.batch_steps.npy" not in names:
+                raise ValueError(f"tallies.npz has no run {run}, but there are {runs}")
+        if any(not re.fullmatch(r"\d{1,9}\.\w+\.npy", name) or int(name.split(".")[0]) >= runs for name in names):
+            raise ValueError(f"tallies.npz has more than the {runs} runs that record.json says")
+        with archive.open("0.batch_steps.npy") as stream:
+            shape, _ = _header(stream)
+        if len(shape) != 1 or not 1 <= shape[0] <= min(steps, _MOST_BATCHES):
+            raise ValueError(f"tallies.npz: {shape} batches of {steps} steps")
+        empty = new_tally(steps, shape[0], len(facts.fleets), facts.agents, targets)
+        return tuple(_read_tally(archive, names, run, empty, complete) for run in range(runs))
+
+
+def _read_tally(archive: zipfile.ZipFile, names: set[str], run: int, empty: Tally, complete: bool) -> Tally:
+    parts = {}
+    for name, like in zip(Tally._fields, empty, strict=True):
+        file = f"{run}.{name}.npy"
+        if file not in names and not complete:
+            parts[name] = np.full_like(like, np.nan if like.dtype.kind == "f" else 0)
+            continue
+        with archive.open(file) as stream:
+            parts[name] = _read_like(stream, like, f"tallies.npz: {run}.{name}")
+    tally = Tally(**parts)
+    if not np.array_equal(tally.batch_steps, empty.batch_steps) or not np.array_equal(tally.steps, empty.batch_steps):
+        raise ValueError(f"tallies.npz: run {run} has not the steps of its scenario")
+    return tally
+
+
+def _read_like(stream: IO[bytes], like: npt.NDArray[Any], name: str) -> npt.NDArray[Any]:
+    shape, kind = _header(stream)
+    if (shape, kind) != (like.shape, like.dtype):
+        raise ValueError(f"{name} is {shape} of {kind}, not {like.shape} of {like.dtype}")
+    content = stream.read(like.nbytes + 1)
+    if len(content) != like.nbytes:
+        raise ValueError(f"{name} is cut short or too long")
+    values = np.frombuffer(content, kind).reshape(shape).copy()
+    if not np.isfinite(values).all() or (values < 0).any():
+        raise ValueError(f"{name} holds a number that is no sum")
+    return values
+
+
+# --- trajectories ---
+
+
+def check_trajectory(files: Mapping[str, Path], *, agents: int, targets: int) -> None:
+    """Refuse arrays of one run that are not frames of so many agents and targets, by their heads and sizes alone.
+
+    Raises
+    ------
+    ValueError, OSError, KeyError : damaged
+    """
+    frames = _frames_of(files["step"])
+    widths = dict.fromkeys(("x", "y", "vx", "vy", "on_target", "alive"), agents)
+    widths |= dict.fromkeys(("target_x", "target_y", "target_present"), targets)
+    widths |= {name: agents for name in files if name.startswith("memory.")}
+    for name in ("step", *widths):
+        kind = np.dtype(_KINDS.get(name, np.float64))
+        _check_file(files[name], (frames,) if name == "step" else (frames, widths[name]), kind)
+
+
+def check_frames(arrays: Mapping[str, npt.NDArray[Any]], steps: int) -> None:
+    """Refuse frames that are not in order, or that hold what is no number.
+
+    Raises
+    ------
+    ValueError : damaged
+    """
+    step = arrays["step"]
+    if step.size and (step[0] < 0 or step[-1] > steps or (np.diff(step) <= 0).any()):
+        raise ValueError("steps of the frames are not in order")
+    for name, values in arrays.items():
+        rows = max(1, _AT_ONCE // max(1, values.shape[-1]))
+        for start in range(0, len(values), rows):
+            part = values[start : start + rows]
+            if part.dtype == np.bool_:
+                fine = (part.view(np.uint8) <= 1).all()
+            else:
+                fine = (np.abs(part) < _LARGEST).all()  # NaN is not
+            if not fine:
+                raise ValueError(f"{name} of the frames holds what is no number")
+
+
+def _frames_of(file: Path) -> int:
+    with file.open("rb") as stream:
+        shape, _ = _header(stream)
+    return int(shape[0]) if len(shape) == 1 else -1
+
+
+def _check_file(file: Path, shape: tuple[int, ...], kind: np.dtype[Any]) -> None:
+    name = f"{file.parent.name}/{file.name}"
+    if not file.is_file():
+        raise ValueError(f"{name} is no file")
+    with file.open("rb") as stream:
+        found = _header(stream)
+        begin = stream.tell()
+    if found != (shape, kind):
+        raise ValueError(f"{name} is {found[0]} of {found[1]}, not {shape} of {kind}")
+    size = int(np.prod(shape, dtype=object)) * kind.itemsize
+    if file.stat().st_size != begin + size:
+        raise ValueError(f"{name} is cut short or too long")
+
+
+def _header(stream: IO[bytes]) -> tuple[tuple[int, ...], np.dtype[Any]]:
+    """Shape and type of an .npy file, as np.save writes them."""
+    if np.lib.format.read_magic(stream) != (1, 0):
+        raise ValueError("an array is in another version of the .npy format")
+    shape, fortran, kind = np.lib.format.read_array_header_1_0(stream)
+    if fortran or any(side < 0 for side in shape):
+        raise ValueError(f"an array of shape {shape} is not in rows")
+    return shape, kind
