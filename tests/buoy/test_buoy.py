@@ -82,7 +82,7 @@ class TestRadio:
 
 
 PLAIN = """
-import pickle, sys, warnings
+import pathlib, pickle, sys, warnings
 warnings.simplefilter("error")
 
 class NoNumba:
@@ -96,7 +96,7 @@ import shoal.scenario.load, shoal.buoy.buoy
 from shoal.buoy.plain import PlainMind
 assert "numba" not in sys.modules
 from buoys import Tape, differences
-for table, tape, ids, radio, apart in pickle.load(open(sys.argv[2], "rb")):
+for table, tape, ids, radio, apart in pickle.loads(pathlib.Path(sys.argv[2]).read_bytes()):
     chosen = shoal.scenario.load.scenario_from(table)
     assert isinstance(shoal.buoy.buoy.Buoy(chosen, 0)._mind, PlainMind)
     found = differences(Tape(*tape), chosen, ids, radio=radio, apart=apart)
