@@ -4,7 +4,8 @@ import re
 
 import pytest
 
-from shoal.core.sheet import MOST_ROWS, Sheet, shown
+from shoal.core.sheet import MOST_ROWS, Sheet
+from shoal.core.text import plain as shown
 
 HOSTILE = ("<script>alert(1)</script>", "a & b", "\x1b[31mred", "two\nlines", '" onmouseover="x')
 

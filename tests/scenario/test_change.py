@@ -199,6 +199,29 @@ class TestCopies:
         assert shoal.simulate(again(paper)).provenance["scenario_hash"] == paper.hash
 
 
+class TestFrozen:
+    """What cannot be set, or is not there, is answered with what can be done."""
+
+    def test_a_scenario_does_not_change(self, paper):
+        with pytest.raises(ScenarioError, match=r"Network\.neighbors: does not change\n.*with_\(neighbors=10"):
+            paper.network.neighbors = 10
+        with pytest.raises(ScenarioError, match=r"Scenario\.steps: does not change"):
+            paper.steps = 10
+        assert (paper.network.neighbors, paper.steps) == (20, 20)
+
+    @pytest.mark.parametrize(
+        ("wrong", "meant"),
+        [("neighbors", "network.neighbors"), ("step", "steps"), ("width", "area.width"), ("has", "hash")],
+    )
+    def test_what_is_not_there(self, paper, wrong, meant):
+        with pytest.raises(AttributeError, match=f"a Scenario has no attribute '{wrong}'; did you mean '{meant}'"):
+            getattr(paper, wrong)
+
+    def test_what_is_not_there_in_a_part(self, paper):
+        with pytest.raises(AttributeError, match="a Fleet has no attribute 'speed'; did you mean 'max_speed'"):
+            paper.fleets[0].speed  # noqa: B018
+
+
 class TestStrategyOfACell:
     """A strategy that is typed into a notebook."""
 

@@ -76,10 +76,11 @@ def no_attribute(owner: str, name: str, known: Iterable[str]) -> AttributeError:
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """Return the question whether a known name was meant, a space behind it; nothing if none is near.
 
-    Near is what is spelt alike, or else what has these initials, or else the only one that has this part.
+    Near is the path that ends in it, or else what is spelt alike, what has these initials, the only one with this part.
     """
     names = list(known)
-    near = difflib.get_close_matches(name[:100], names, n=1)
+    near = [each for each in names if each.endswith(f".{name}")][:1]
+    near = near or difflib.get_close_matches(name[:100], names, n=1)
     near = near or [each for each in names if len(name) > 1 and _initials(each) == name]
     near = near or [each for each in names if len(name) > 2 and name in each]
     return f"did you mean {near[0]!r}? " if len(near) == 1 else ""

@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping
 from os import PathLike
-from typing import Annotated, Any, Self
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 import numpy as np
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
-from shoal.core.errors import ScenarioError, did_you_mean
+from shoal.core.errors import ScenarioError, did_you_mean, no_attribute
 from shoal.core.text import checked_name, quoted
 from shoal.core.units import Share
 
@@ -28,6 +28,21 @@ class Frozen(BaseModel):
             return super().model_copy(deep=deep)
         return self._validated({**vars(self), **update})
 
+    if not TYPE_CHECKING:  # type checkers shall go on to know what there is
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            part = type(self).__name__
+            fix = 'make another one, such as scenario.with_(neighbors=10, **{"network.loss": 0.1})'
+            raise ScenarioError(f"{part}.{name}", "does not change", fix)
+
+        def __getattr__(self, name: str) -> Any:
+            try:
+                return super().__getattr__(name)
+            except AttributeError:
+                if name.startswith("_"):
+                    raise
+                raise no_attribute(f"a {type(self).__name__}", name, _attributes(self)) from None
+
     def _validated(self, table: dict[str, Any]) -> Self:
         part = type(self).__name__
         try:
@@ -40,6 +55,18 @@ class Frozen(BaseModel):
                 hint = did_you_mean(str(first["loc"][-1]), fields) or f"fields here: {', '.join(fields)}"
                 raise ScenarioError(path, f"unknown field (value {quoted(first['input'])})", hint.rstrip()) from None
             raise ScenarioError(path, f"{quoted(first['input'])}: {first['msg'].lower()}", "change the value") from None
+
+
+def _attributes(part: Frozen) -> dict[str, None]:
+    """Fields and methods of a part, and fields of the parts in it, as paths."""
+    methods = [each for each in vars(type(part)) if not each.startswith(("_", "model_"))]
+    inside = [
+        f"{name}.{field}"
+        for name, value in vars(part).items()
+        if isinstance(value, Frozen)
+        for field in type(value).model_fields
+    ]
+    return dict.fromkeys([*type(part).model_fields, *methods, *inside])
 
 
 Positive = Field(gt=0)
