@@ -37,8 +37,9 @@ def staged(strategy, places, targets=(NOWHERE,), top=ENDLESS, changes=None):
 def put(simulation, places):
     """Move the agents to these places, at rest."""
     n = simulation.scenario.agents
-    simulation.swarm.x[:n], simulation.swarm.y[:n] = np.array(places, float).T
-    simulation.swarm.vx[:n] = simulation.swarm.vy[:n] = 0.0
+    with simulation.edit() as now:
+        now.swarm.x[:n], now.swarm.y[:n] = np.array(places, float).T
+        now.swarm.vx[:n] = now.swarm.vy[:n] = 0.0
 
 
 def places(simulation):

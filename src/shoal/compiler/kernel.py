@@ -3,9 +3,9 @@
 Numba's cache does not notice an edited function in another file and would return old numbers silently, so the
 cache lives in a folder named by a hash of all our kernel sources (docs/decisions/0002-kernel-cache.md).
 
-A trap: in a kernel that calls an overload with inline="always" (`part`, `enter`, all of strategies/contract.py), numba
-removes writes into arrays that it does not see to be an argument's. It sees one dot, `swarm.x[i] = 1.0`, but neither two,
-`parts.swarm.x[i] = 1.0`, nor what `part` returned: such a kernel hands the NamedTuple with the array to one that writes.
+A trap: in a kernel that calls an overload with inline="always" (`part`, `enter`, all of strategies/contract.py),
+numba removes writes into arrays that it does not see to be an argument's. It sees one dot, `swarm.x[i] = 1.0`, but
+neither two, `parts.swarm.x[i] = 1.0`, nor what `part` returned: such a kernel hands the swarm to one that writes.
 """
 
 import hashlib
