@@ -177,5 +177,5 @@ class TestLook:
         away = np.hypot(
             simulation.swarm.x - simulation.targets["x"][0], simulation.swarm.y - simulation.targets["y"][0]
         )
-        assert simulation.swarm.engaged[:50].tolist() == (away <= 1.0)[:50].tolist()
-        assert simulation.swarm.on_target[:50].sum() > simulation.swarm.engaged[:50].sum()
+        assert swarm.engaged[:50].tolist() == (away <= 1.0)[:50].tolist()
+        assert swarm.on_target[:50].sum() > swarm.engaged[:50].sum()
