@@ -174,8 +174,7 @@ class TestLook:
         alarms = {f"fleets.{number}.false_alarm_probability": 0.5 for number in range(2)}
         simulation = Simulation(scenario(changes=alarms))
         simulation.advance(300)
-        away = np.hypot(
-            simulation.swarm.x - simulation.targets["x"][0], simulation.swarm.y - simulation.targets["y"][0]
-        )
+        swarm, target = simulation.swarm, simulation.targets[0]
+        away = np.hypot(swarm.x - target["x"], swarm.y - target["y"])
         assert swarm.engaged[:50].tolist() == (away <= 1.0)[:50].tolist()
         assert swarm.on_target[:50].sum() > swarm.engaged[:50].sum()

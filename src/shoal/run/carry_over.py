@@ -43,8 +43,6 @@ def carry_over(old: Simulation, scenario: Scenario, origin: npt.ArrayLike | None
         new.begin()
         _carry_memory(old, new, now, here, there)
         _carry_air(old, new, now, here, there)
-    if (new.swarm.leaves < NEVER).any():
-        new.account_for_absence()
     return new
 
 

@@ -22,7 +22,6 @@ def remove_agent(simulation: Simulation, agent: int) -> None:
         raise ScenarioError("agent", "a swarm has at least 2 agents", "add some before you remove one")
     with simulation.edit() as now:
         now.swarm.leaves[agent] = simulation.number
-    simulation.account_for_absence()
 
 
 def move_target(simulation: Simulation, target: int, x: float, y: float) -> None:

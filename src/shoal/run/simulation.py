@@ -63,26 +63,26 @@ class Simulation:
         self.memory_fields = self.crew.memory
         self.world = build_world(scenario)
         self._swarm = build_swarm(scenario, self.crew)
-        self.radio = build_radio(scenario, self.crew, self._swarm.x.size)
+        self._radio = build_radio(scenario, self.crew, self._swarm.x.size)
         tracks = open_tracks(scenario)
         self.notes = [note for track in tracks for note in track.notes]
         self._targets, self.tracks = build_targets(scenario, tracks)
         minds = Minds(
             memory=as_records(self._swarm.memory, self.memory_fields),
             told=as_records(self._swarm.told, self.crew.told),
-            arrived=as_records(self.radio.told, self.crew.told),
+            arrived=as_records(self._radio.told, self.crew.told),
         )
         plain = Minds(*(np.asarray(each) for each in minds))
         self._minds = plain if compiles() else minds  # numba takes recarrays, too, but slowly
         batches = min(BATCHES, scenario.steps)
         self._tally = new_tally(scenario.steps, batches, len(scenario.fleets), scenario.agents, len(scenario.targets))
-        self._state = state_of(self._swarm, self.radio, self._targets, self._tally)
+        self._state = state_of(self._swarm, self._radio, self._targets, self._tally)
         self.swarm, self.targets, self.minds = read_only(self._swarm), read_only(self._targets), read_only(minds)
         self.moment: State = read_only(self._state)
         self.tally = self.moment.tally
         self._scratch = new_scratch(self.world, self._swarm.x.size, self.crew.sums, self.crew.ranked)
         self._begin, self._rollout = entry_points(self.crew)
-        self._identity_of_run = Run(np.uint64(scenario.seed), run, scenario.steps)
+        self._which = Run(np.uint64(scenario.seed), run, scenario.steps)
         self._phases = addresses()
         self._no_frames = self._new_frames(0)
         self._placed = Placed(self._stage(self._no_frames))
@@ -147,13 +147,7 @@ class Simulation:
         StrategyError : a number is not finite
         """
         yield self._state
-        self.advance(0)
-
-    def account_for_absence(self) -> None:
-        """Switch on what the engine leaves out of runs in which everybody is always there."""
-        self.world = self.world._replace(mortal=True)
-        self.radio = self.radio._replace(limited=True)
-        self.advance(0)
+        self._settle()
 
     def state(self) -> dict[str, Any]:
         """Everything that a resumed run needs, as arrays by name; read-only."""
@@ -191,13 +185,25 @@ class Simulation:
                 for name, array in mine.items():
                     array[...] = saved[name]
                 self.number = number
-                self.advance(0)
+                self._settle()
         except (OSError, ValueError, KeyError, EOFError, BadZipFile) as error:
             if isinstance(error, RecordError):
                 raise
             raise RecordError(
                 str(file), f"is no saved state: {error}", "name a file made by Simulation.save"
             ) from error
+
+    @property
+    def radio(self) -> Any:
+        """Settings of the radio, and what is on the air; read-only."""
+        return read_only(self._radio)
+
+    def _settle(self) -> None:
+        """Make the state true after a change; where everybody is always there, the engine leaves a lot out."""
+        if not self.world.mortal and (self._swarm.leaves < NEVER).any():
+            self.world = self.world._replace(mortal=True)
+            self._radio = self._radio._replace(limited=True)
+        self.advance(0)
 
     def _roll(self, placed: Placed, first: int, last: int, every: int, tail: int) -> None:
         """Run steps first..last on a stage.
@@ -230,14 +236,14 @@ class Simulation:
         return Stage(
             self.world,
             self._swarm,
-            self.radio,
+            self._radio,
             self._targets,
             self.tracks,
             self._tally,
             self._scratch,
             frames,
             self._phases,
-            self._identity_of_run,
+            self._which,
         )
 
     def _new_frames(self, count: int) -> Frames:
