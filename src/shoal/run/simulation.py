@@ -90,6 +90,7 @@ class Simulation:
         lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
         _set_out(self._placed.address, places, lifetimes, losses_of(scenario))
         self.begin()
+        self._settle()
 
     def begin(self) -> None:
         """Set up every agent's memory, as its strategy does before the first step."""
