@@ -4,6 +4,7 @@ import numpy as np
 
 import replay
 from scenarios import fleets, scenario
+from shoal.core.agents import as_records
 from shoal.run.simulation import Simulation
 
 ENDLESS = 1e9  # a top speed that limits nobody [m/s]
@@ -40,6 +41,11 @@ def put(simulation, places):
     with simulation.edit() as now:
         now.swarm.x[:n], now.swarm.y[:n] = np.array(places, float).T
         now.swarm.vx[:n] = now.swarm.vy[:n] = 0.0
+
+
+def memory_of(simulation):
+    """What agents remember, as records that a test may write to."""
+    return as_records(simulation._swarm.memory, simulation.memory_fields)
 
 
 def places(simulation):

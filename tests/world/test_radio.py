@@ -241,7 +241,8 @@ class TestTruth:
         heard = np.zeros(50, bool)
         for simulation, shift in ((one, 0.0), (other, 3.0)):
             simulation.advance(steps)
-            simulation.swarm.x[agent] -= np.copysign(shift, simulation.swarm.x[agent])
+            with simulation.edit() as now:
+                now.swarm.x[agent] -= np.copysign(shift, now.swarm.x[agent])
             simulation.advance(1)
             links = simulation._scratch.links
             heard |= (links.square <= links.reach)[agent, :50]
