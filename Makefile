@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
-.PHONY: demo test test-fast lint bench arena web clean help
+.PHONY: demo test test-fast lint bench arena notebook web clean help
 
 help:
 	@echo "make demo      run the paper's scenario: table, figure and record in demo-output/"
@@ -13,6 +13,7 @@ help:
 	@echo "make lint      ruff, mypy, import-linter"
 	@echo "make bench     speed of the engine beside its anchor and plain NumPy"
 	@echo "make arena     the leaderboard of docs/reference/arena.md anew, about ten minutes"
+	@echo "make notebook  the notebook of the docs anew, as results change"
 	@echo "make web       the viewer's page from its sources (needs npm; users do not)"
 	@echo "make clean     remove the environment and everything made"
 
@@ -46,6 +47,10 @@ bench: $(VENV)/.installed
 
 arena: $(VENV)/.installed
 	$(BIN)/shoal compare --suite arena --out arena-output --markdown docs/reference/arena.md
+
+notebook: $(VENV)/.installed
+	$(BIN)/python -m pip install --quiet nbconvert ipykernel
+	$(BIN)/python -m nbconvert --to notebook --execute --inplace --ExecutePreprocessor.record_timing=False docs/tutorials/*.ipynb
 
 web:
 	cd web && npm ci --no-audit --no-fund && npm test && npm run build

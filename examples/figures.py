@@ -3,7 +3,7 @@
 import shoal
 from shoal import plot
 
-scenario = shoal.load("oceans2020").model_copy(update={"steps": 3000})
+scenario = shoal.load("oceans2020", steps=3000)
 record = shoal.simulate(scenario, runs=3, out="record")
 
 plot.save(plot.summary(record), "summary.png")  # as shoal run --figure
@@ -12,7 +12,7 @@ plot.save(plot.snapshot(record, step=2800, halos=True, trail=0), "repulsion.png"
 plot.save(plot.trajectory_map(record, start=2900, steps=60), "paths.png")
 plot.save(plot.time_on_target(record), "time-on-target.pdf")
 
-slow = shoal.simulate(scenario.model_copy(update={"fleets": scenario.fleets[1:]}))
+slow = shoal.simulate(scenario, fleets=scenario.fleets[1:])
 plot.save(plot.phi_histogram({"mixed": record, "all slow": slow}), "heading.svg")
 
 simulation = shoal.Simulation(scenario)

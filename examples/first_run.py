@@ -2,8 +2,7 @@
 
 import shoal
 
-scenario = shoal.load("oceans2020").model_copy(update={"steps": 5000})
-record = shoal.simulate(scenario, runs=5)
+record = shoal.simulate("oceans2020", steps=5000, runs=5)
 mean, interval, runs = record.estimate("time_on_target")
 print(f"time on target {mean:.3f}, 95 % interval {interval[0]:.3f} to {interval[1]:.3f} over {len(runs)} runs")
 print("agents per step from away (-1) to toward (+1):", record.phi_histogram().sum(axis=0).round(2))

@@ -47,7 +47,10 @@ def test_the_example_of_named_sums_runs(name):
     assert order > 0.4 or name == "six_nearest"  # which is no flock
 
 
-@pytest.mark.parametrize(("page", "example"), [("own-strategy.md", "my_strategy.py"), ("figures.md", "figures.py")])
+@pytest.mark.parametrize(
+    ("page", "example"),
+    [("own-strategy.md", "my_strategy.py"), ("figures.md", "figures.py"), ("decide-on-a-buoy.md", "buoys.py")],
+)
 def test_the_page_quotes_the_example(page, example):
     text = (ROOT / "docs/how-to" / page).read_text(encoding="utf-8")
     assert (ROOT / "examples" / example).read_text(encoding="utf-8") in text
@@ -63,3 +66,10 @@ def test_the_commands_and_the_code_of_the_page_on_films_run(tmp_path, monkeypatc
     (code,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
     exec(code, {})
     assert {file.name for file in tmp_path.iterdir()} == {"swarm.mp4", "links.gif", "still.png", "run", "run.mp4"}
+
+
+def test_the_code_of_the_page_on_buoys_runs(capsys):
+    page = (ROOT / "docs/how-to/decide-on-a-buoy.md").read_text(encoding="utf-8")
+    code, *_ = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
+    exec(code, {})
+    assert len(capsys.readouterr().out.split()) == 2

@@ -1,8 +1,22 @@
 """Shoal: design, test and deploy swarms that search for and track moving targets at sea.
 
 >>> import shoal
->>> record = shoal.simulate(shoal.load("oceans2020"), runs=5)
+>>> record = shoal.simulate("oceans2020", runs=5, steps=20_000, neighbors=10, target_speed="6 kn")
 >>> record.estimate("time_on_target")
+>>> shoal.compare(["knn-pso", "encircle"], runs=10, steps=5000)
+>>> shoal.sweep("oceans2020", {"neighbors": range(10, 50, 10)}, steps=5000).plot()
+
+simulate, compare, sweep, reproduce, check     run a scenario, or many of them
+load, presets, to_toml, Scenario               what to run; `scenario.with_(neighbors=10)` is another
+Simulation                                     one run, step by step
+Record, open_record, save_record, load_results what runs leave behind
+list_strategies, list_metrics, list_presets    what there is
+strategy, kernel, uniform, normal              to write a strategy, with the units
+Meters, MetersPerSecond, Seconds, Degrees      of its parameters
+plot                                           every figure, in one line each
+ShoalError                                     base of every error raised on purpose
+
+`help(shoal.simulate)` and so on say more.
 """
 
 from importlib import import_module
@@ -12,66 +26,101 @@ from shoal.version import VERSION as __version__  # noqa: N811 (the name every p
 
 if TYPE_CHECKING:
     from shoal import plot
+    from shoal.buoy.buoy import Buoy
     from shoal.compiler.kernel import kernel
     from shoal.core.draws import normal, uniform
     from shoal.core.errors import ShoalError
+    from shoal.core.messages import Reading, Report
     from shoal.core.units import Degrees, Meters, MetersPerSecond, Seconds
     from shoal.experiments.results import load_results
+    from shoal.paper.reproduce import reproduce
     from shoal.record.files import open_record, save_record
     from shoal.record.record import Record
     from shoal.run.simulate import simulate
     from shoal.run.simulation import Simulation
+    from shoal.scenario.briefing import briefing
     from shoal.scenario.load import load, presets, to_toml
     from shoal.scenario.schema import Scenario
     from shoal.strategies import strategy
+    from shoal.study.check import check
+    from shoal.study.compared import compare
+    from shoal.study.listing import list_metrics, list_presets, list_strategies
+    from shoal.study.swept import sweep
 
 _HOMES = {
+    "shoal.buoy.buoy": ("Buoy",),
     "shoal.core.draws": ("normal", "uniform"),
     "shoal.core.errors": ("ShoalError",),
+    "shoal.core.messages": ("Reading", "Report"),
     "shoal.compiler.kernel": ("kernel",),
     "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Seconds"),
     "shoal.experiments.results": ("load_results",),
+    "shoal.paper.reproduce": ("reproduce",),
     "shoal.record.files": ("open_record", "save_record"),
     "shoal.record.record": ("Record",),
+    "shoal.scenario.briefing": ("briefing",),
     "shoal.scenario.load": ("load", "presets", "to_toml"),
     "shoal.scenario.schema": ("Scenario",),
     "shoal.run.simulate": ("simulate",),
     "shoal.run.simulation": ("Simulation",),
     "shoal.strategies": ("strategy",),
+    "shoal.study.check": ("check",),
+    "shoal.study.compared": ("compare",),
+    "shoal.study.listing": ("list_metrics", "list_presets", "list_strategies"),
+    "shoal.study.swept": ("sweep",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
+    "Buoy",
     "Degrees",
     "Meters",
     "MetersPerSecond",
+    "Reading",
     "Record",
+    "Report",
     "Scenario",
     "Seconds",
     "ShoalError",
     "Simulation",
     "__version__",
+    "briefing",
+    "check",
+    "compare",
     "kernel",
+    "list_metrics",
+    "list_presets",
+    "list_strategies",
     "load",
     "load_results",
     "normal",
     "open_record",
     "plot",
     "presets",
+    "reproduce",
     "save_record",
     "simulate",
     "strategy",
+    "sweep",
     "to_toml",
     "uniform",
 ]
 
 
-def __getattr__(name: str) -> Any:
-    """Import on first use: `import shoal` and `shoal --help` load neither compiler nor plots."""
-    if name == "plot":
-        return import_module("shoal.plot")
-    if name not in _HOME_OF:
-        raise AttributeError(f"module 'shoal' has no attribute {name!r}; it has: {', '.join(__all__)}")
-    value = getattr(import_module(_HOME_OF[name]), name)
-    globals()[name] = value
-    return value
+def __dir__() -> list[str]:
+    return __all__
+
+
+if not TYPE_CHECKING:  # type checkers shall go on to know what there is
+
+    def __getattr__(name: str) -> Any:
+        """Import on first use: `import shoal` and `shoal --help` load neither compiler nor plots."""
+        if name == "plot":
+            return import_module("shoal.plot")
+        if name not in _HOME_OF:
+            from shoal.core.errors import no_attribute
+
+            raise no_attribute("shoal", name, __all__)
+        value = getattr(import_module(_HOME_OF[name]), name)
+        globals()[name] = value
+        return value

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shoal.core.errors import RecordError, ScenarioError
+from shoal.core.errors import RecordError, ScenarioError, did_you_mean, no_attribute
 from shoal.drawing.arena import arena_aspect
 from shoal.drawing.curves import draw_batches
 from shoal.drawing.files import save_figure
@@ -55,6 +55,17 @@ __all__ = [
     "trajectory_map",
     "write_film",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__
+
+
+if not TYPE_CHECKING:  # type checkers shall go on to know what there is
+
+    def __getattr__(name: str) -> Any:
+        raise no_attribute("shoal.plot", name, __all__)
+
 
 AnyRecord = Record | str | Path
 Page = tuple[tuple[float, float, float, float], float, float]  # [inch] axes; room right of and above them
@@ -187,13 +198,14 @@ def curves(
     """
     fields, rows = varied_rows(results)
     if y not in METRICS:
-        raise ScenarioError(f"y {y}", "is no metric", f"there are: {', '.join(METRICS)}")
+        raise ScenarioError(f"y {y}", "is no metric", f"{did_you_mean(y, METRICS)}there are: {', '.join(METRICS)}")
     x = x or default_x(fields, rows)
     hue = hue or next((name for name in fields if name != x), None)
     names = [name for name in (hue, x) if name]
     unknown = [name for name in names if rows and name not in rows[0]]
     if unknown:
-        raise ScenarioError(f"field {unknown[0]}", "is none of this sweep", f"there are: {', '.join(fields)}")
+        hint = did_you_mean(unknown[0], fields)
+        raise ScenarioError(f"field {unknown[0]}", "is none of this sweep", f"{hint}there are: {', '.join(fields)}")
     made: dict[Any, Curve] = {}
     for group in aggregate(rows, names, [y]):
         label = f"{hue} {group[hue]}".replace("_", " ") if hue else ""

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from commands import shoal
+from shoal.scenario.load import scenario_from, to_toml
 
 SHARED = Path(__file__).resolve().parents[2] / ".." / "shared" / "data"
 
@@ -122,8 +123,13 @@ BAD = [
     (["run", "oceans2020", "--track-id", "a=b"], "needs --target-track"),
     (["run", "oceans2020", "--target-track", "none.csv"], "no such file"),
     (["run", "oceans2020", "--target-track", "empty.csv"], "empty"),
-    (["run", "oceans2020", "--target-track", "nan.csv"], "nan.csv:3"),
+    (["run", "oceans2020", "--target-track", "nan.csv"], "1 usable fix, but a track needs 2 or more (Fixes dropped"),
     (["run", "oceans2020", "--target-track", "backwards.csv"], "backwards.csv:3"),
+    (["run", "oceans2020", "--target-track", "noon.csv"], "noon.csv:2: time 'noon' cannot be read"),
+    (["run", "oceans2020", "--target-track", "us.csv"], "--set targets.0.day_first=true"),
+    (["run", "oceans2020", "--target-track", "us.csv", "--set", "targets.0.day_first=maybe"], "day_first"),
+    (["run", "oceans2020", "--target-track", "us.csv", "--set", "targets.0.max_speed=fast"], "max_speed"),
+    (["run", "oceans2020", "--target-track", "b\udcfcrg.csv"], "b\\udcfcrg.csv: is no text in the encoding"),
     (["run", "oceans2020", "--steps", "10", "--out", "/proc/none/r"], "cannot be written"),
     (["run", "oceans2020", "--steps", "10", "--out", "full"], "exists already"),
     (["run", "oceans2020", "--frobnicate"], "--frobnicate"),
@@ -144,7 +150,11 @@ class TestBadInput:
     def files(self):
         Path("empty.csv").write_text("")
         Path("nan.csv").write_text("time,lat,lon\n2020-01-01T00:00:00Z,50,1\n2020-01-01T00:01:00Z,nan,1\n")
-        Path("backwards.csv").write_text("time,lat,lon\n2020-01-01T00:01:00Z,50,1\n2020-01-01T00:00:00Z,50,1\n")
+        stamps = ("00:01", "00:00", "00:02", "00:03", "00:04")
+        lines = [f"2020-01-01T{stamp}:00Z,50.00{i},1\n" for i, stamp in enumerate(stamps)]
+        Path("backwards.csv").write_text("time,lat,lon\n" + "".join(lines))
+        Path("noon.csv").write_text("time,lat,lon\nnoon,50,1\n")
+        Path("us.csv").write_text("time,lat,lon\n03/10/2024 12:00,50,1\n03/10/2024 12:10,50,1.001\n")
         Path("bad.toml").write_text('name = "x"\nstepz = 3\n')
         Path("full").mkdir()
         Path("full/file").write_text("")
@@ -200,6 +210,64 @@ class TestSweep:
         assert shoal(capsys, "plot", "s")[0] == 0
         assert Path("s/plot.png").exists()
         assert "is no metric" in shoal(capsys, "plot", "s", "--y", "fun")[2]
+
+
+TRACK_OPTIONS = [
+    ([], 60),
+    (["--set", "targets.0.max_speed=70"], 61),
+    (["--set", 'targets.0.max_speed="140 kn"'], 61),
+    (["--set", "targets.0.max_gap=7200"], 60),
+    (["--set", "targets.0.max_speed=70", "--set", "targets.0.max_gap=1h"], 61),
+    (["--set", "targets.0.digest=null"], 60),
+    (["--set", "targets.0.day_first=true"], 60),
+    (["--set", "targets.0.radius=0.5 nmi"], 60),
+    (["--set", "area.origin=[10.0, 54.1]"], 60),
+    (["--set", "time_step=5", "--target-speed", "3"], None),
+    (["--track-id", "boat=A"], 60),
+    (["--set", 'targets.0.id="boat=A"'], 60),
+    (["--set", "targets.0.max_speed=70", "--track-id", "all"], 61),
+]
+
+
+class TestTrackOptions:
+    """What the how-to says of a recorded track works on the command line."""
+
+    @pytest.fixture(autouse=True)
+    def track(self):
+        """61 fixes, half an hour apart; one is stamped too early, and can be reached at 62 m/s only."""
+        seconds = [1800 * i - 1750 * (i == 30) for i in range(61)]
+        lines = [f"{1_600_000_000 + s},{54 + 0.027 * i:.4f},10,A\n" for i, s in enumerate(seconds)]
+        Path("boat.csv").write_text("time,lat,lon,boat\n" + "".join(lines))
+
+    @pytest.mark.parametrize(("options", "fixes"), TRACK_OPTIONS, ids=[" ".join(each) for each, _ in TRACK_OPTIONS])
+    def test_each_runs(self, capsys, options, fixes):
+        run = ("run", "oceans2020", "--target-track", "boat.csv", *options, "--steps", 20, "--json", "--out", "r")
+        code, _, err = shoal(capsys, *run)
+        if fixes is None:
+            assert "no target of this scenario has a speed" in err
+            return
+        assert code == 0, err
+        assert ("could reach them: 1," in err) == (fixes == 60)
+
+    def test_its_digest_is_of_the_options_used(self, capsys):
+        digests = set()
+        for n, options in enumerate(([], ["--set", "targets.0.max_speed=70"], ["--set", "targets.0.max_gap=7200"])):
+            run = ("run", "oceans2020", "--target-track", "boat.csv", *options, "--steps", 5, "--out", f"r{n}")
+            assert shoal(capsys, *run)[0] == 0
+            scenario = json.loads(Path(f"r{n}/record.json").read_text())["scenario"]
+            digests.add(scenario["targets"][0]["digest"])
+        assert len(digests) == 3
+
+    def test_a_scenario_made_with_it_insists_on_it_until_it_is_read_in_another_way(self, capsys):
+        assert shoal(capsys, "run", "oceans2020", "--target-track", "boat.csv", "--steps", 5, "--out", "r")[0] == 0
+        scenario = json.loads(Path("r/record.json").read_text())["scenario"]
+        Path("mine.toml").write_text(to_toml(scenario_from(scenario)))
+        assert shoal(capsys, "run", "mine.toml")[0] == 0
+        assert shoal(capsys, "run", "mine.toml", "--set", "targets.0.max_speed=70")[0] == 0
+        assert shoal(capsys, "run", "mine.toml", "--set", "targets.0.digest=null")[0] == 0
+        text = Path("boat.csv").read_text()
+        Path("boat.csv").write_text(text.replace("54.5400", "54.5500"))
+        assert "does not hold the track" in shoal(capsys, "run", "mine.toml")[2]
 
 
 class TestTracks:

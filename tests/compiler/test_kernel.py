@@ -6,7 +6,7 @@ import sys
 
 PLAIN = """
 import warnings
-warnings.simplefilter("ignore", RuntimeWarning)  # NumPy's scalars mention that a hash overflows; that is what hashes do
+warnings.simplefilter("error")
 import shoal
 from shoal.scenario.load import read_table, scenario_from
 table = read_table("oceans2020")

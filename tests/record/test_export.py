@@ -14,8 +14,8 @@ from shoal.metrics.heading_bearing import CENTERS
 from shoal.metrics.summary import METRICS, evaluate, fleet_fluctuation, fleet_stationary, phi_histogram
 from shoal.record.export import to_netcdf, to_xarray, to_zarr
 from shoal.record.trajectory import Trajectory
-from shoal.scenario.tracks import read_track
 from shoal.strategies import CATALOGUE
+from shoal.tracks.read import read_track
 
 xarray = pytest.importorskip("xarray")
 

@@ -270,7 +270,7 @@ class TestErrors:
         [
             ("raise ValueError('no')", r":\d+: strategy 'drifter' raised ValueError: no"),
             ("memory.course = 1.0", "'course' is no field of a memory"),
-            ("return 1.0", "return two numbers"),
+            ("return 1.0", "returns two numbers"),
         ],
     )
     def test_a_function_that_fails_as_it_is_compiled_or_run(self, tmp_path, line, says):

@@ -1,13 +1,16 @@
 """Named sums and ranks: what the engine adds up is what a slow loop over the neighbors adds up."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from scenarios import scenario
+from shoal.core.draws import uniform
 from shoal.core.errors import StrategyError
 from shoal.run.simulation import Simulation
 from shoal.strategies import CATALOGUE, strategy
-from shoal.strategies.plugins import load_strategies
+from shoal.strategies.plugins import find_strategy, load_strategies
 from shoal.strategies.rank import asks_for_rank
 
 WITNESS = '''"""Remembers what it hears."""
@@ -174,6 +177,22 @@ class TestErrors:
 
 def helper(other):
     return other.rank
+
+
+class TestCalledFromPython:
+    """With whatever has the fields: nobody needs the engine to test a strategy."""
+
+    def test_with_made_up_objects(self, witness):
+        known = find_strategy(witness["name"], witness["source"])
+        me = SimpleNamespace(time=1.0, max_speed=2.0)
+        assert known.influence(me, SimpleNamespace(rank=5, x=3.0, time=0.5), known.params()) == (5, 1.0, 3.0, 0.5)
+        sums = known.sums(1.0, 2.0, 3.0, 4.0)
+        heard = SimpleNamespace(sums=sums, x=7.0, sum_x=1.0, sum_y=2.0)
+        memory = SimpleNamespace()
+        vx, vy = known.decide(me, heard, memory, known.params(), 1)
+        assert vx == 2.0 * (uniform(1, 0) - 0.3)
+        assert vy == 0.4
+        assert (memory.ranks, memory.age, memory.leader_x) == (1.0, 4.0, 7.0)
 
 
 class TestAskingForRank:

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from shoal.core.errors import ScenarioError
-from shoal.run.crew import crew_of
 from shoal.run.simulation import Simulation
+from shoal.scenario.crew import crew_of
 from shoal.scenario.load import read_table, scenario_from
 
 

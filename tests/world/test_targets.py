@@ -13,7 +13,7 @@ import replay
 from scenarios import scenario
 from shoal.core.agents import new_swarm
 from shoal.run.simulation import Simulation
-from shoal.scenario.tracks import position_at
+from shoal.tracks.track import position_at
 from shoal.world.targets import KINDS, TARGET, Tracks, advance_target
 
 NO_DRAW = np.uint64(0)

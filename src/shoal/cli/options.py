@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from shoal.core.errors import ScenarioError
+from shoal.scenario.change import follow
 from shoal.scenario.edit import apply, parse_assignment, parse_value
 from shoal.scenario.load import read_table
-from shoal.scenario.on_track import put_on_track
 
 
 def edited_table(
@@ -16,6 +16,7 @@ def edited_table(
     if track_id and not track:
         raise ScenarioError("--track-id", "needs --target-track", "name the file that holds the track")
     table = read_table(source)
+    assigned = dict(parse_assignment(each) for each in assignments)
     wanted = {name: value for name, value in changes.items() if value is not None}
     for name in ("target-speed", "neighbors"):
         if isinstance(text := wanted.get(name), str):
@@ -23,10 +24,8 @@ def edited_table(
     if track:
         # what the track decides, an option overrides
         late: dict[str, Any] = {name: wanted.pop(name) for name in ("steps", "target-speed") if name in wanted}
-        table = put_on_track(apply(table, wanted), track, track_id)
-        wanted = late
-    table = apply(table, wanted)
-    return apply(table, dict(parse_assignment(each) for each in assignments))
+        return follow(table, wanted, late | assigned, track, track_id)
+    return apply(apply(table, wanted), assigned)
 
 
 def given_changes(assignments: Sequence[str] | None, **options: Any) -> dict[str, Any]:

@@ -27,13 +27,12 @@ def check(file: str, /) -> None:
     file
         A TOML file or a preset's name.
     """
-    from shoal.run.build import open_tracks
     from shoal.scenario.load import load
+    from shoal.study.check import check as notes_of
 
     loaded = load(file)
-    for track in open_tracks(loaded):
-        for each in track.notes:
-            note(each)
+    for each in notes_of(loaded):
+        note(each)
     sys.stdout.write(
         f"{file}: fine ({loaded.agents} agents, k = {loaded.network.neighbors}, {loaded.steps:,} steps, "
         f"scenario {loaded.hash})\n"

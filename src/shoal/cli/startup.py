@@ -27,7 +27,7 @@ def load_compiler() -> None:
 def tell_of_compiling(scenario: "Scenario") -> None:
     """Say so if the first step will compile the engine for this strategy."""
     from shoal.run.compiling import engine_is_compiled, needs_compiling
-    from shoal.run.crew import crew_of
+    from shoal.scenario.crew import crew_of
 
     if needs_compiling(scenario):
         crew, seconds = crew_of(scenario), 5 if engine_is_compiled() else 20

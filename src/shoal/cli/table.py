@@ -1,6 +1,5 @@
 """A record as a table that fits a terminal."""
 
-import math
 import sys
 from collections.abc import Mapping
 from typing import Any
@@ -10,9 +9,10 @@ from rich.table import Table
 from rich.text import Text
 
 from shoal.metrics.summary import METRICS
-from shoal.record.choices import degree_text, strategy_text
 from shoal.record.record import Record
 from shoal.record.statistics import Estimate
+from shoal.record.words import interval_text, mean_text
+from shoal.scenario.choices import degree_text, strategy_text
 
 _LABELS = {
     "time_on_target": "time on target",
@@ -102,9 +102,7 @@ def _unit(unit: str) -> str:
 
 
 def _cells(value: Estimate) -> tuple[str, str]:
-    decimals = 4 if not abs(value.mean) >= 100 else 1
-    mean = f"{value.mean:.{decimals}f}" if math.isfinite(value.mean) else "none"
-    return mean, " .. ".join(f"{end:.{decimals}f}" for end in value.ci95) if value.ci95 else "-"
+    return mean_text(value), interval_text(value)
 
 
 def _target(target: dict[str, object]) -> str:

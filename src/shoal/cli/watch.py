@@ -60,9 +60,9 @@ def watch(
     strategy
         A strategy's name (see `shoal strategies`) or a Python file that defines one.
     target_track
-        Recorded track to follow instead (CSV, GPX, NetCDF): the arena and all lengths are fitted around it.
+        Recorded track to follow instead (CSV, NMEA, GPX, KML, GeoJSON, NetCDF): arena and lengths are fitted around it.
     track_id
-        Which track of the file, as COLUMN=VALUE, such as mmsi=235069877.
+        Which track of the file, as COLUMN=VALUE, such as mmsi=235069877; all joins all.
     assignments
         Any field by its path, such as strategy.delta=0.02; may be repeated.
     speed

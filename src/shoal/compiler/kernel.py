@@ -1,5 +1,7 @@
 """@kernel: our only spelling of numba.njit; the flags and the cache are chosen here, once.
 
+Without numba, on the small computer of a buoy, kernels are the plain functions that they are written as.
+
 Numba's cache does not notice an edited function in another file and would return old numbers silently, so the
 cache lives in a folder named by a hash of all our kernel sources (docs/decisions/0002-kernel-cache.md).
 
@@ -18,17 +20,31 @@ from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
-import numba
-from numba.core import config as numba_config
-from numba.core.errors import NumbaExperimentalFeatureWarning
-from numba.core.registry import CPUDispatcher
-
-# Fleets with strategies of their own share memory records, which numba passes by their first fields and warns of.
-warnings.filterwarnings("ignore", message="Record", category=NumbaExperimentalFeatureWarning)
-
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-_config: Any = numba_config  # its settings come from the environment at run time
+try:
+    import numba
+    from numba import extending
+    from numba.core import config
+    from numba.core.errors import NumbaError as NumbaError
+    from numba.core.errors import NumbaExperimentalFeatureWarning
+    from numba.core.errors import TypingError as TypingError
+
+    from shoal.compiler.inner import FLAGS, INNER_FLAGS, Inner
+
+    # Fleets with strategies of their own share memory records, which numba passes by their first fields and warns of.
+    warnings.filterwarnings("ignore", message="Record", category=NumbaExperimentalFeatureWarning)
+except ModuleNotFoundError as missing:
+    if missing.name != "numba":
+        raise
+    numba = config = None  # type: ignore[assignment]
+
+    class NumbaError(Exception):  # type: ignore[no-redef]
+        """What nobody raises without numba."""
+
+    TypingError = NumbaError  # type: ignore[misc, assignment]
+
+_config: Any = config  # its settings come from the environment at run time
 _COMPILED_FOLDERS = ("compiler", "core", "world", "strategies", "metrics", "engine")
 
 
@@ -36,11 +52,13 @@ def kernel(function: Function) -> Function:
     """Compile a function that other kernels call; it is compiled into them and not cached by itself."""
     if hasattr(function, "py_func") or not compiles():
         return function  # compiled already, or never
-    return cast(Function, _Inner(function, targetoptions={"nopython": True, **_INNER_FLAGS}))
+    return cast(Function, Inner(function, targetoptions={"nopython": True, **INNER_FLAGS}))
 
 
 def entry_kernel(function: Function) -> Function:
     """Compile a function that Python calls, and keep the machine code on disk for the next process."""
+    if numba is None:
+        return function
     with kernel_cache():
         return cast(Function, numba.njit(function, cache=True, **FLAGS))
 
@@ -57,8 +75,21 @@ def kernel_cache() -> Iterator[None]:
 
 
 def compiles() -> bool:
-    """Whether kernels are compiled: not under NUMBA_DISABLE_JIT=1."""
-    return not _config.DISABLE_JIT
+    """Whether kernels are compiled: not without numba, and not under NUMBA_DISABLE_JIT=1."""
+    return numba is not None and not _config.DISABLE_JIT
+
+
+def plain(function: Function) -> Function:
+    """The function that a kernel is written as."""
+    return cast(Function, getattr(function, "py_func", function))
+
+
+def overload(function: Callable[..., Any], **options: Any) -> Callable[[Function], Function]:
+    """Say what a function is in kernels: numba's decorator of the same name, if there is a compiler."""
+    if numba is None:
+        return lambda implementation: implementation
+    decorator: Any = extending.overload(function, **options)
+    return cast(Callable[[Function], Function], decorator)
 
 
 def uncached(entry: Function) -> Function:
@@ -66,25 +97,6 @@ def uncached(entry: Function) -> Function:
     if not compiles():
         return entry
     return cast(Function, numba.njit(entry.py_func, **FLAGS))  # type: ignore[attr-defined]
-
-
-# error_model="numpy": the check for division by zero would stop vectorization (2-3x slower). No fastmath: results
-# would depend on the processor. nogil: one thread per run scales to all cores.
-FLAGS: dict[str, Any] = {"error_model": "numpy", "nogil": True}
-
-
-# forceinline: 12 % faster than LLVM's own choice. No wrappers: only Python needs them, and they are a third of all
-# compile time, because every wrapper optimizes its kernel once more.
-_INNER_FLAGS = {**FLAGS, "forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-
-
-class _Inner(CPUDispatcher):
-    """A kernel without wrappers; called from Python, it compiles a twin that has them."""
-
-    def __call__(self, *arguments: Any) -> Any:
-        if not hasattr(self, "twin"):
-            self.twin = numba.njit(self.py_func, **FLAGS)
-        return self.twin(*arguments)
 
 
 @cache

@@ -19,7 +19,8 @@ from llvmlite import ir
 from numba import cfunc, types
 from numba.extending import intrinsic, overload
 
-from shoal.compiler.kernel import FLAGS, compiles, kernel_cache
+from shoal.compiler.inner import FLAGS
+from shoal.compiler.kernel import compiles, kernel_cache
 
 _SIGNATURE = types.int64(types.int64, types.int64, types.int64, types.int64, types.uint64)
 

@@ -1,6 +1,7 @@
 """Errors a user can act on: each says where, what is wrong, and how to fix it."""
 
 import difflib
+import re
 from collections.abc import Iterable
 
 
@@ -38,6 +39,10 @@ class RecordError(ShoalError):
     """A record that cannot be written or read."""
 
 
+class MessageError(ShoalError):
+    """A report that cannot be sent, or read."""
+
+
 class MissingExtraError(ShoalError):
     """An optional library is needed and absent."""
 
@@ -47,7 +52,37 @@ class MissingExtraError(ShoalError):
         return cls(package, f"is not installed, and {why} needs it", f"pip install 'shoal[{extra}]'")
 
 
+class UnknownNameError(ShoalError, KeyError):
+    """A name that nothing has: of a metric, a table, a field."""
+
+    @classmethod
+    def of(cls, what: str, name: object, known: Iterable[str]) -> "UnknownNameError":
+        """Return the error that says what there is, and what was probably meant."""
+        names = list(known)
+        return cls(f"{what} {name!r}", "there is none of this name", f"{did_you_mean(str(name), names)}{_all(names)}")
+
+
+def no_attribute(owner: str, name: str, known: Iterable[str]) -> AttributeError:
+    """Return the error of an attribute that is not there: it says which are, and which was probably meant."""
+    names = list(known)
+    return AttributeError(f"{owner} has no attribute {name!r}; {did_you_mean(name, names)}{_all(names)}", name=name)
+
+
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return the question whether a known name was meant, a space behind it; nothing if none is near."""
-    near = difflib.get_close_matches(name, list(known), n=1)
-    return f"did you mean {near[0]!r}? " if near else ""
+    """Return the question whether a known name was meant, a space behind it; nothing if none is near.
+
+    Near is what is spelt alike, or else what has these initials, or else the only one that has this part.
+    """
+    names = list(known)
+    near = difflib.get_close_matches(name, names, n=1)
+    near = near or [each for each in names if len(name) > 1 and _initials(each) == name]
+    near = near or [each for each in names if len(name) > 2 and name in each]
+    return f"did you mean {near[0]!r}? " if len(near) == 1 else ""
+
+
+def _initials(name: str) -> str:
+    return "".join(word[:1] for word in re.split(r"[_-]", name))
+
+
+def _all(names: list[str]) -> str:
+    return f"there are: {', '.join(names)}"

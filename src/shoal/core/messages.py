@@ -6,6 +6,8 @@ Python: a small computer on a buoy imports it, too.
 
 from typing import Any, NamedTuple
 
+from shoal.core.wire import pack, unpack
+
 
 class Briefing(NamedTuple):
     """What an agent is told before it leaves, and nothing that it could only learn at sea.
@@ -21,6 +23,16 @@ class Briefing(NamedTuple):
     reach: float
     share_begin: float
     share_end: float
+
+
+class Reading(NamedTuple):
+    """What an agent's own instruments say: place [m], velocity [m/s], and whether its sensor has a target."""
+
+    x: float
+    y: float
+    vx: float
+    vy: float
+    on_target: bool
 
 
 class Truth(NamedTuple):
@@ -73,8 +85,34 @@ class Report(NamedTuple):
     time: float = 0.0
     rank: Any = None
 
+    def to_bytes(self) -> bytes:
+        """The report as it goes over the air: 50 bytes, and 8 for each field told.
 
-REPORT_BYTES = 4 + 4 * 8 + 1  # id, position and velocity, on target; each field of `told` adds 8
+        Raises
+        ------
+        MessageError : a number is not finite, or the id is not one of 32 bits
+        """
+        return pack(self)
+
+    @classmethod
+    def from_bytes(cls, data: bytes, told: tuple[str, ...] = ()) -> "Report":
+        """The report in bytes that came over the air.
+
+        Parameters
+        ----------
+        data : what `to_bytes` made
+        told : names of the fields that the swarm tells, in their order; Buoy.told
+
+        Raises
+        ------
+        MessageError : too few or too many bytes, of another version, or damaged
+        """
+        read: Report = unpack(data, told, cls)
+        return read
+
+
+REPORT_BYTES = 4 + 4 * 8 + 1  # what it says: id, position and velocity, on target; each field of `told` adds 8
+ENVELOPE_BYTES = 1 + 8 + 4  # what sending it takes besides: version, time, checksum
 
 
 class Heard(NamedTuple):

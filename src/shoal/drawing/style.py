@@ -81,9 +81,10 @@ def style() -> Iterator[None]:
 def new_figure(width: float, height: float) -> "Figure":
     """Return an empty page of a size [inch] that no window and no global state knows; call it inside `style`."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(width, height))
+    from shoal.drawing.page import Page
+
+    figure = Page(figsize=(width, height))
     FigureCanvasAgg(figure)
     return figure
 

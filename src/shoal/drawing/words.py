@@ -3,9 +3,9 @@
 import math
 from typing import Any
 
-from shoal.record.choices import degree_text, strategy_text
 from shoal.record.record import Record
 from shoal.record.statistics import Estimate
+from shoal.scenario.choices import degree_text, strategy_text
 
 _THIN = "\u2009"
 

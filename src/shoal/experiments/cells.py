@@ -5,8 +5,9 @@ import json
 from dataclasses import dataclass
 
 from shoal.experiments.design import Design, Point
+from shoal.scenario.change import change
 from shoal.scenario.edit import apply
-from shoal.scenario.load import read_table, scenario_from
+from shoal.scenario.load import name_of_source, scenario_from, table_of
 from shoal.scenario.schema import Scenario
 from shoal.version import RESULTS_VERSION
 
@@ -34,11 +35,12 @@ def make_cells(design: Design, changes: Point, *, independent: bool = False) -> 
     ------
     ScenarioError : a point gives no scenario that can run (all points are checked before anything runs)
     """
-    base = apply(read_table(design.scenario), changes)
+    base = change(table_of(design.scenario), changes)
     cells: dict[str, Cell] = {}
+    name = name_of_source(design.scenario)
     for point in design.points:
         told = ", ".join(f"{name}={value}" for name, value in point.items())
-        scenario = scenario_from(apply(base, point), where=f"{design.scenario} ({told})" if told else design.scenario)
+        scenario = scenario_from(apply(base, point), where=f"{name} ({told})" if told else name)
         if independent:
             scenario = scenario.model_copy(update={"seed": _seed_of(scenario)})
         cells.setdefault(f"{scenario.hash}/{scenario.seed}", Cell(dict(point), scenario))
@@ -47,7 +49,7 @@ def make_cells(design: Design, changes: Point, *, independent: bool = False) -> 
 
 def base_table(design: Design, changes: Point) -> Point:
     """The scenario that a design starts from, in full."""
-    return scenario_from(apply(read_table(design.scenario), changes)).model_dump(mode="json", exclude={"description"})
+    return scenario_from(change(table_of(design.scenario), changes)).model_dump(mode="json", exclude={"description"})
 
 
 def _seed_of(scenario: Scenario) -> int:

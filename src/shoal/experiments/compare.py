@@ -16,10 +16,11 @@ from shoal.experiments.executors import Executor
 from shoal.experiments.replicate import Row
 from shoal.experiments.results import seal
 from shoal.experiments.sweep import Progress, sweep
+from shoal.scenario.load import Source
 
 
 def comparison_design(
-    scenario: str, contenders: Sequence[Contender], runs: int, vary: Mapping[str, Sequence[Any]] | None = None
+    scenario: Source, contenders: Sequence[Contender], runs: int, vary: Mapping[str, Sequence[Any]] | None = None
 ) -> Design:
     """Return the design that runs every contender at every combination of varied fields.
 
@@ -29,7 +30,7 @@ def comparison_design(
     """
     own = next((name for name in vary or {} if name.split(".")[0] == "strategy"), None)
     if own:
-        raise ScenarioError(f"--vary {own}", "strategies are what is compared", "vary a field that all of them share")
+        raise ScenarioError(f"vary {own}", "strategies are what is compared", "vary a field that all of them share")
     return Design(scenario, tuple(grid({"strategy": [each.choice for each in contenders], **(vary or {})})), runs)
 
 

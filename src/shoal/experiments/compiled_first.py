@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterable, Iterator
 
 from shoal.experiments.executors import Done, Executor, Task
 from shoal.run.compiling import mark_compiled, needs_compiling
-from shoal.run.crew import crew_of
 from shoal.run.simulation import Simulation
+from shoal.scenario.crew import crew_of
 
 
 def compiled_first(execute: Executor, tell: Callable[[str], None]) -> Executor:

@@ -10,16 +10,16 @@ from typing import Any
 
 from shoal.core.errors import MissingExtraError, ScenarioError
 from shoal.scenario.edit import parse_value
-from shoal.scenario.load import presets
+from shoal.scenario.load import Source, presets
 
 Point = dict[str, Any]  # {field: value}: shorthands (neighbors, fast, ...) and dotted paths, see scenario/edit.py
 
 
 @dataclass(frozen=True)
 class Design:
-    """A base scenario (preset or file), the points at which it is changed, and the replicates of each."""
+    """A base scenario (what shoal.load takes), the points at which it is changed, and the replicates of each."""
 
-    scenario: str
+    scenario: Source
     points: tuple[Point, ...]
     runs: int
 

@@ -1,6 +1,7 @@
 """From rows of runs to curves, and from curves to numbers with intervals: means, slopes, differences, peaks."""
 
 import math
+import zlib
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -9,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.metrics.heading_bearing import CENTERS
+from shoal.paper.peaks import tops
 from shoal.paper.results import Row
 from shoal.record.statistics import estimate, t_quantile
 
@@ -19,8 +21,7 @@ DRAWS = 2000  # bootstrap
 FEW = 4  # with fewer seeds the spread is pooled over cases
 _SEED = 2020
 _BLOCK = 4  # neighboring points whose residuals stay together: with shared chance they are correlated
-_WINDOW = 6.0  # points this far from the highest one shape the peak
-_FINE = 241  # places where a fitted peak is looked for
+_SMALLEST = 1e-3  # error of a curve's points, relative to its range: equal runs are not infinitely sure
 
 
 class Interval(NamedTuple):
@@ -161,29 +162,26 @@ def slopes(of: Curve) -> Floats:
     return slope
 
 
-def peak(of: Curve) -> Peak:
-    """Return the place and the height of a curve's maximum.
+def peak(of: Curve, draws: int = DRAWS) -> Peak:
+    """Return the place and the height of a curve's maximum, by draws from the smooth curves that fit it (peaks.tops).
 
-    Smoothed: near its top a curve is flat, so the highest point is largely luck (its place varies by one k between
-    repetitions of five seeds). A cubic through the points within 6 of the highest one gives the place to 0.3 with a
-    bias below 0.2; a parabola is off by up to 0.8, because the curves rise and fall unequally. Where k is run in steps
-    of 3 only, the bias is up to 0.5, and the interval knows nothing of it.
-
-    Intervals by a bootstrap over seeds in blocks: a made-up seed's residuals (its curve less the mean curve) are blocks
-    of 4 neighboring points, each from a random seed and place, enlarged by sqrt(R / (R - 1)). Drawing whole curves
-    instead covers the truth in 50-60 % of cases with two seeds, this in 97 % or more (five seeds: 85-97 %, 98 %). The
-    draws are the same for all curves of one shape, so that differences of their peaks are paired.
+    Near its top a curve is flat, so the highest point is largely luck: its place varies by one k between repetitions of
+    five seeds. Noise is a bootstrap over seeds in blocks: a made-up seed's residuals (its curve less the mean curve)
+    are blocks of 4 neighboring points, each from a random seed and place, enlarged by sqrt(R / (R - 1)). It is the same
+    for all curves of one shape, so that differences of their peaks are paired. Of 500 made-up curves of each of the
+    paper's shapes, 95 % or more had the true place in their interval (benchmarks/bench_peaks.py).
     """
     seeds, places = of.runs.shape
     if places < 4 or seeds == 0:
-        return Peak(_UNKNOWN, _UNKNOWN, np.full(DRAWS, np.nan), at_edge=False)
-    place, height = _peaks(of.x, of.mean[np.newaxis])
-    at_edge = bool(place[0] in (of.x[0], of.x[-1]))
+        return Peak(_UNKNOWN, _UNKNOWN, np.full(draws, np.nan), at_edge=False)
+    error, noise = _errors(of.runs, draws)
+    chance = np.random.default_rng([_SEED, zlib.crc32(of.runs.tobytes())])  # how curves bend is not shared by two
+    found = tops(of.x, of.mean, error, noise, chance)
+    at_edge = found.place in (of.x[0], of.x[-1])
     if seeds == 1:
-        unknown = np.full(DRAWS, np.nan)
-        return Peak(_around(place[0], unknown), _around(height[0], unknown), unknown, at_edge)
-    draws, heights = _peaks(of.x, of.mean + _noise(of.runs))
-    return Peak(_around(place[0], draws), _around(height[0], heights), draws, at_edge)
+        unknown = np.full(draws, np.nan)
+        return Peak(_around(found.place, unknown), _around(found.height, unknown), unknown, at_edge)
+    return Peak(_around(found.place, found.places), _around(found.height, found.heights), found.places, at_edge)
 
 
 def peak_difference(one: Peak, other: Peak) -> Interval:
@@ -213,33 +211,24 @@ def _around(value: float, draws: Floats) -> Interval:
     return Interval(float(value), float(low), float(high))
 
 
-def _noise(runs: Floats) -> Floats:
-    """Residual means of made-up sets of seeds, (DRAWS, K)."""
+def _errors(runs: Floats, draws: int) -> tuple[float, Floats]:
+    """Standard error of a point, and mean errors of made-up sets of seeds, (draws, K).
+
+    What all points of a seed share moves no peak: it is no part of the error, but of the draws.
+    """
     seeds, places = runs.shape
+    if seeds == 1:  # from how far points lie off the line between their neighbors
+        off = runs[0, 1:-1] - (runs[0, 2:] + runs[0, :-2]) / 2
+        return float(np.median(np.abs(off))) or _SMALLEST, np.zeros((1, places))
     residuals = (runs - runs.mean(axis=0)) * math.sqrt(seeds / (seeds - 1))
+    shared = residuals.mean(axis=1, keepdims=True)
+    own = residuals - shared
+    error = math.sqrt(float((own**2).sum()) / (seeds * (places - 1) * seeds))
+    smallest = _SMALLEST * max(float(np.ptp(runs.mean(axis=0))), _SMALLEST)
     rng = np.random.default_rng(_SEED)  # fixed: the report repeats bit by bit
-    shape = (DRAWS, seeds, -(-places // _BLOCK))
+    shape = (draws, seeds, -(-places // _BLOCK))
     who, begin = rng.integers(seeds, size=shape), rng.integers(places, size=shape)
     at = (begin[..., np.newaxis] + np.arange(_BLOCK)) % places
-    drawn = residuals[who[..., np.newaxis], at].reshape(DRAWS, seeds, -1)[:, :, :places]
-    noise: Floats = drawn.mean(axis=1)
-    return noise
-
-
-def _peaks(x: Floats, curves: Floats) -> tuple[Floats, Floats]:
-    """Place and height of the peak of each curve, (C, K)."""
-    place, height = np.empty(len(curves)), np.empty(len(curves))
-    top = curves.argmax(axis=1)
-    for highest in np.unique(top):
-        mine = top == highest
-        distance = np.abs(x - x[highest])
-        near = distance <= max(_WINDOW, np.sort(distance)[3])
-        degree = min(3, int(near.sum()) - 2)  # a cubic through four points would fit their noise
-        fine = np.linspace(x[near].min(), x[near].max(), _FINE)
-        powers = np.vander(x[near] - x[highest], degree + 1)
-        fit = np.vander(fine - x[highest], degree + 1) @ np.linalg.pinv(powers)
-        fitted = curves[mine][:, near] @ fit.T
-        best = fitted.argmax(axis=1)
-        place[mine] = fine[best]
-        height[mine] = fitted[np.arange(best.size), best]
-    return place, height
+    drawn = own[who[..., np.newaxis], at].reshape(draws, seeds, -1)[:, :, :places].mean(axis=1)
+    noise: Floats = drawn + shared[rng.integers(seeds, size=(draws, seeds))].mean(axis=1)
+    return max(error, smallest), noise

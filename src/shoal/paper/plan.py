@@ -14,7 +14,7 @@ AGENTS, MIXED = 50, 15  # buoys, and fast ones among them in the paper's mixed s
 SHARE_NEIGHBORS = (10, 20, 30, 40)
 START_PLACES = ("corner", "center")
 
-# Every k where the curves peak: a cubic needs five points within 6 of the top (curves.peak).
+# Every k where the curves peak: between points a curve can bend unseen, and its peak's interval grows (peaks.py).
 _NEIGHBORS = (*range(2, 14, 2), *range(14, 31), 32, 34, 36, 38, 40, 42, 44, 46, 48, 49)
 _NEIGHBORS_QUICK = (2, 6, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30, 34, 40, 49)
 _SENSITIVITY_NEIGHBORS = (8, 12, 15, 18, 21, 24, 27, 30, 35, 42)

@@ -52,8 +52,9 @@ _RULE = " ".join((cases.__doc__ or "").split("\n\n", 1)[-1].split())  # said onc
 METHOD = {
     "oceans2020": (
         _SEEDS,
-        "The place of a peak is that of a cubic through the points within 6 of the highest one. Its interval is a "
-        "bootstrap over seeds, in blocks of neighboring points.",
+        "The place and the height of a peak are those of the smooth curves that fit all points, drawn from a Gaussian "
+        "process that learns from the points how smooth the curve is, with noise bootstrapped over seeds. On made-up "
+        "curves of the paper\u2019s shapes, 95 % or more of the intervals hold the true place.",
         _RULE,
         "The key number of a claim is that of the case that speaks most against it.",
         "Where the paper reads a k off a plot (\u201cabout 18\u201d), "

@@ -45,13 +45,15 @@ def to_xarray(record: "Record") -> "xarray.Dataset":
     ------
     MissingExtraError : xarray is not installed
     """
-    labelled = _library("xarray")
+    _library("xarray")
+    from shoal.record.dataset import RecordDataset
+
     variables = _metric_variables(record)
     coordinates = _metric_coordinates(record)
     if record.trajectories:
         variables |= _trajectory_variables(record)
         coordinates |= _trajectory_coordinates(record)
-    dataset: xarray.Dataset = labelled.Dataset(variables, coordinates, _global_attributes(record))
+    dataset: xarray.Dataset = RecordDataset(variables, coordinates, _global_attributes(record))
     for name in {"phi_bin", "time"} & set(coordinates):
         dataset[name].encoding["_FillValue"] = None  # never missing, and CF wants it said by silence
     return dataset
@@ -277,7 +279,7 @@ def _origin(record: "Record") -> tuple[float, float] | None:
 
 
 def _grid_mapping(lon: float, lat: float) -> Variable:
-    """The projection of recorded tracks, see scenario.tracks."""
+    """The projection of recorded tracks, see tracks.ground."""
     attributes = {
         "grid_mapping_name": "azimuthal_equidistant",
         "longitude_of_projection_origin": lon,

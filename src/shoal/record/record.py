@@ -2,11 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
+from shoal.core.errors import UnknownNameError, no_attribute
+from shoal.core.sheet import Sheet, shown
 from shoal.metrics.each_target import each_target, loss_lengths
 from shoal.metrics.robustness import Robustness, robustness
 from shoal.metrics.summary import (
@@ -22,9 +24,18 @@ from shoal.metrics.summary import (
 from shoal.metrics.tally import Tally, batch_of
 from shoal.record.statistics import Estimate, estimate
 from shoal.record.trajectory import Trajectory
+from shoal.record.words import interval_text, mean_text
+from shoal.scenario.choices import headline
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+_OF_FLEETS = ("xi", "xi_raw", "stationary", "speed", "power")
+_OF_SEVERAL_TARGETS = ("targets_observed", "fairness")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Record:
     """The result of R runs of one scenario.
 
@@ -44,12 +55,14 @@ class Record:
     trajectories: dict[int, Trajectory] = field(default_factory=dict)
 
     def estimate(self, metric: str) -> Estimate:
-        """Mean and 95 % confidence interval of a metric, see shoal.metrics(): over runs, or batches of a single run.
+        """Mean and 95 % confidence interval of a metric, see shoal.list_metrics(): over runs, or batches of one run.
 
         Raises
         ------
-        KeyError : no metric of this name
+        UnknownNameError : no metric of this name; it is a KeyError, too
         """
+        if metric not in METRICS:
+            raise UnknownNameError.of("metric", metric, METRICS)
         values, batches = zip(*(evaluate(metric, tally, self.facts) for tally in self.tallies), strict=True)
         return estimate(values, batches[0])
 
@@ -62,8 +75,10 @@ class Record:
 
         Raises
         ------
-        KeyError : another metric
+        UnknownNameError : another metric; it is a KeyError, too
         """
+        if metric not in _OF_FLEETS:
+            raise UnknownNameError.of("metric of fleets", metric, _OF_FLEETS)
         formulas: dict[str, Callable[[Tally], npt.NDArray[np.float64]]] = {
             "xi_raw": lambda tally: fleet_fluctuation(tally, self.facts),
             "xi": lambda tally: fleet_fluctuation(tally, self.facts) / mean_max_speed(tally, self.facts),
@@ -124,10 +139,7 @@ class Record:
                     "count": self.facts.counts[f],
                     "max_speed": self.facts.max_speeds[f],
                     "phi_histogram": _numbers(histogram[f]),
-                    **{
-                        metric: _plain(self.fleet_estimate(metric)[name])
-                        for metric in ("xi", "xi_raw", "stationary", "speed", "power")
-                    },
+                    **{metric: _plain(self.fleet_estimate(metric)[name]) for metric in _OF_FLEETS},
                 }
                 for f, name in enumerate(self.facts.fleets)
             },
@@ -136,11 +148,71 @@ class Record:
             **self.provenance,
         }
 
-    def to_xarray(self) -> Any:
-        """Return an xarray.Dataset of metrics and trajectories with units and CF attributes (extra: xarray)."""
+    def to_pandas(
+        self, what: Literal["metrics", "fleets", "targets", "frames", "target_frames"] = "metrics"
+    ) -> "pandas.DataFrame":
+        """Return a tidy table (extra: sweep).
+
+        Parameters
+        ----------
+        what : metrics - a row per run and metric: run, metric, value, unit
+            fleets, targets - the same of each fleet, of each target (numbered from 0)
+            frames - a row per run, kept step and agent: run, step, time [s], agent, fleet, x, y [m], vx, vy [m/s],
+            on_target, alive, memory_NAME; target_frames - the same of targets: target, x, y [m], present
+
+        Raises
+        ------
+        UnknownNameError : another table
+        MissingExtraError : pandas is not installed
+        """
+        from shoal.record.dataframe import to_pandas
+
+        return to_pandas(self, what)
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Return metrics and trajectories as one dataset, with units and CF attributes (extra: xarray).
+
+        Its `to_dataframe` refuses to be the product of all dimensions: use `to_pandas`, or choose variables.
+
+        Raises
+        ------
+        MissingExtraError : xarray is not installed
+        """
         from shoal.record.export import to_xarray
 
         return to_xarray(self)
+
+    def __repr__(self) -> str:
+        """One line: what was run, and time on target."""
+        return f"<Record {self._head()}; time on target {shown(mean_text(self.estimate('time_on_target')))}>"
+
+    def _repr_html_(self) -> str:
+        """The table of the run for a notebook: every metric with its interval."""
+        several = len(self.scenario["targets"]) > 1
+        known = {name: self.estimate(name) for name in METRICS if several or name not in _OF_SEVERAL_TARGETS}
+        return Sheet(
+            head=self._head(),
+            titles=("metric", "mean", "95 % interval", "unit", ""),
+            rows=[
+                (name, mean_text(value), interval_text(value), METRICS[name].unit, METRICS[name].sentence)
+                for name, value in known.items()
+            ],
+            note=f"{headline(self.scenario)}; intervals {'over runs' if len(self.tallies) > 1 else 'by batch means'}",
+            words=("metric", "unit", ""),
+        ).html()
+
+    def _head(self) -> str:
+        runs, about = len(self.tallies), self.provenance
+        return (
+            f"{shown(self.scenario['name'])}: {runs} run{'s' * (runs != 1)} of {self.scenario['steps']:,} steps, "
+            f"seed {about['seed']}, scenario {about['scenario_hash']}"
+        )
+
+    if not TYPE_CHECKING:  # type checkers shall go on to know what there is
+
+        def __getattr__(self, name: str) -> Any:
+            methods = [each for each in dir(type(self)) if not each.startswith("_")]
+            raise no_attribute("a Record", name, dict.fromkeys([*type(self).__dataclass_fields__, *methods]))
 
 
 def _over_some(values: list[float]) -> Estimate:

@@ -13,12 +13,28 @@ _T975 = (
 )  # fmt: skip
 
 
+_FEW = 5  # runs listed one by one
+
+
 class Estimate(NamedTuple):
     """Mean, 95 % confidence interval (None where it cannot be told) and the value of each run."""
 
     mean: float
     ci95: tuple[float, float] | None
     runs: tuple[float, ...]
+
+    def __repr__(self) -> str:
+        """In short: rounded, and the runs only counted where they are many."""
+        interval = f"({self.ci95[0]:.4g}, {self.ci95[1]:.4g})" if self.ci95 else "None"
+        few = len(self.runs) <= _FEW
+        runs = f"({', '.join(f'{each:.4g}' for each in self.runs)})" if few else f"<{len(self.runs)} values>"
+        return f"Estimate(mean={self.mean:.4g}, ci95={interval}, runs={runs})"
+
+    def _repr_html_(self) -> str:
+        """The same for a notebook."""
+        interval = f", 95 % interval {self.ci95[0]:.4g} .. {self.ci95[1]:.4g}" if self.ci95 else ""
+        runs = len(self.runs)
+        return f"<b>{self.mean:.4g}</b>{interval}, {runs} run{'s' * (runs != 1)}"
 
 
 def estimate(runs: npt.ArrayLike, batches: npt.ArrayLike | None = None) -> Estimate:

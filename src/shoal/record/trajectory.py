@@ -3,17 +3,19 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 import numpy.typing as npt
 
+from shoal.core.errors import UnknownNameError, no_attribute
+from shoal.core.sheet import Sheet, shown
 from shoal.engine.stage import Frames
 
 _PLAIN = ("step", "x", "y", "vx", "vy", "on_target", "alive", "target_x", "target_y", "target_present")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Trajectory:
     """K frames of one run, each the state at the start of a step.
 
@@ -36,6 +38,29 @@ class Trajectory:
     target_y: npt.NDArray[np.float64]
     target_present: npt.NDArray[np.bool_]
     memory: dict[str, npt.NDArray[np.float64]]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "memory", _Memory(self.memory))
+
+    def __repr__(self) -> str:
+        """One line: how many frames of what."""
+        return f"<Trajectory {self._head()}>"
+
+    def _repr_html_(self) -> str:
+        """The arrays and their shapes for a notebook."""
+        rows = [(name, " x ".join(map(str, each.shape)), str(each.dtype)) for name, each in self.arrays().items()]
+        return Sheet(f"Trajectory {self._head()}", ("array", "shape", "type"), rows, words=("array",)).html()
+
+    def _head(self) -> str:
+        (frames, agents), targets = self.x.shape, self.target_x.shape[1]
+        steps = f" of steps {self.step[0]:,} to {self.step[-1]:,}" if frames else ""
+        memory = f"; memory: {shown(', '.join(self.memory))}" if self.memory else ""
+        return f"of {frames:,} frames{steps}: {agents} agents, {targets} target{'s' * (targets != 1)}{memory}"
+
+    if not TYPE_CHECKING:  # type checkers shall go on to know what there is
+
+        def __getattr__(self, name: str) -> Any:
+            raise no_attribute("a Trajectory", name, (*_PLAIN, "memory", "arrays"))
 
     def arrays(self) -> dict[str, npt.NDArray[Any]]:
         """All arrays by name; memory fields as memory.NAME."""
@@ -64,6 +89,13 @@ class Trajectory:
     def open(cls, folder: Path) -> "Trajectory":
         """The trajectory in a folder; arrays stay on disk until they are used."""
         return cls.from_arrays({file.stem: np.load(file, mmap_mode="r") for file in sorted(folder.glob("*.npy"))})
+
+
+class _Memory(dict[str, npt.NDArray[np.float64]]):
+    """Fields by name; one that is not there is answered with those that are."""
+
+    def __missing__(self, name: str) -> npt.NDArray[np.float64]:
+        raise UnknownNameError.of("memory", name, self)
 
 
 class TrajectoryWriter:

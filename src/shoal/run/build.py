@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from shoal.core.agents import new_swarm
-from shoal.core.errors import ScenarioError
-from shoal.run.crew import Crew
+from shoal.scenario.briefing import degrees, shares
+from shoal.scenario.crew import Crew
+from shoal.scenario.on_track import open_track
 from shoal.scenario.schema import Scenario
 from shoal.scenario.targets import (
     DriftTarget,
@@ -19,7 +20,7 @@ from shoal.scenario.targets import (
     WalkTarget,
     WaypointTarget,
 )
-from shoal.scenario.tracks import Track, read_track
+from shoal.tracks.track import Track
 from shoal.world.arena import World
 from shoal.world.radio import new_radio
 from shoal.world.targets import KINDS, TARGET, Tracks
@@ -63,12 +64,8 @@ def build_swarm(scenario: Scenario, crew: Crew) -> Any:
     fill(swarm.false_alarm, [fleet.false_alarm_probability for fleet in fleets])
     fill(swarm.max_acceleration, [fleet.max_acceleration or math.inf for fleet in fleets])
     fill(swarm.max_turn_rate, [math.radians(fleet.max_turn_rate or math.inf) for fleet in fleets])
-    degrees = [
-        "all" if strategy.hears_all else fleet.neighbors or scenario.network.neighbors
-        for strategy, fleet in zip(crew.strategies, fleets, strict=True)
-    ]
-    fill(swarm.neighbors, [agents - 1 if degree == "all" else degree for degree in degrees])
-    swarm.share_end[:agents] = np.cumsum(swarm.max_speed[:agents]) / swarm.max_speed[:agents].sum()
+    fill(swarm.neighbors, degrees(scenario, crew))
+    swarm.share_end[:agents] = shares(scenario)
     nobody = swarm.fleet_end - [
         sum(join.count for join in scenario.joins if join.fleet == each.name) for each in fleets
     ]
@@ -112,7 +109,7 @@ def open_tracks(scenario: Scenario) -> list[Track]:
     TrackError : one cannot be used
     ScenarioError : one is not what the scenario was made with
     """
-    return [_open_track(target, scenario) for target in scenario.targets if isinstance(target, TrackTarget)]
+    return [open_track(target, scenario.area.origin) for target in scenario.targets if isinstance(target, TrackTarget)]
 
 
 def build_targets(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Any, Tracks]:
@@ -149,21 +146,6 @@ def _fill_moving(record: Any, target: MovingTarget, scenario: Scenario) -> None:
         record["turn_sin"] = math.sin(math.radians(target.max_turn))
     if isinstance(target, WalkTarget | EvasiveTarget | DriftTarget):
         record["diffusion"] = 1.0 / target.persistence
-
-
-def _open_track(target: TrackTarget, scenario: Scenario) -> Track:
-    track = read_track(
-        target.file,
-        track_id=target.id,
-        origin=scenario.area.origin,
-        max_gap=target.max_gap,
-        max_speed=target.max_speed,
-    )
-    if target.digest not in (None, track.digest):
-        raise ScenarioError(
-            target.file, "does not hold the track that this scenario was made with", "restore it, or drop `digest`"
-        )
-    return track
 
 
 def _join_tracks(tracks: Sequence[Track]) -> Tracks:

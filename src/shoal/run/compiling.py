@@ -5,7 +5,7 @@ from typing import Any
 
 from shoal.compiler.kernel import cache_folder, uncached
 from shoal.engine.rollout import begin_run, rollout
-from shoal.run.crew import Crew, crew_of
+from shoal.scenario.crew import Crew, crew_of
 from shoal.scenario.schema import Scenario
 
 _UNCACHED: dict[Any, tuple[Any, Any]] = {}

@@ -2,7 +2,7 @@
 
 from shoal.core.messages import REPORT_BYTES
 from shoal.metrics.summary import Facts
-from shoal.run.crew import crew_of
+from shoal.scenario.crew import crew_of
 from shoal.scenario.schema import Scenario
 
 

@@ -22,6 +22,7 @@ from shoal.record.trajectory import Trajectory
 from shoal.run.compiling import mark_compiled
 from shoal.run.facts import facts_of
 from shoal.run.simulation import Simulation, count_frames
+from shoal.scenario.load import Source, load
 from shoal.scenario.schema import Scenario
 from shoal.version import RESULTS_VERSION, VERSION
 
@@ -32,24 +33,28 @@ Progress = Callable[[int, int], None]
 
 
 def simulate(
-    scenario: Scenario,
+    scenario: Source,
     *,
     runs: int = 1,
     jobs: int | None = None,
     every: int | None = None,
     out: str | Path | None = None,
     progress: Progress | None = None,
+    **changes: Any,
 ) -> Record:
     """Run a scenario and return its record.
 
+    >>> shoal.simulate("oceans2020", runs=5, steps=20_000, neighbors=10, target_speed="6 kn")
+
     Parameters
     ----------
-    scenario : what to run, see shoal.load
+    scenario : what to run: a preset's name, a TOML file, a dict or a Scenario
     runs : independent replicates, R; replicate r of two scenarios with one seed shares its chance
     jobs : threads, one run each; default: one per core
     every : keep the frame of every so many-th step of every run; default: an overview of the first run
     out : write the record to this new folder; trajectories stream there, so memory does not grow with steps
     progress : called as progress(steps done, steps in all) from time to time, from any thread
+    changes : to the scenario, in the words of the command line, as in `Scenario.with_`
 
     Raises
     ------
@@ -59,6 +64,7 @@ def simulate(
     for name, number in (("runs", runs), ("jobs", jobs), ("every", every)):
         if number is not None and number < 1:
             raise ScenarioError(name, f"is {number}", "ask for 1 or more")
+    scenario = load(scenario, **changes)
     begun, started = time.perf_counter(), datetime.now(UTC)
     with RecordFolder(out) if out is not None else nullcontext() as folder:
         keep = _Keep(scenario.steps, every, folder)

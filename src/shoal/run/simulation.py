@@ -20,10 +20,10 @@ from shoal.metrics.tally import new_tally
 from shoal.record.trajectory import Trajectory
 from shoal.run.build import build_radio, build_swarm, build_targets, build_world, losses_of, open_tracks
 from shoal.run.compiling import entry_points
-from shoal.run.crew import crew_of
 from shoal.run.state import State, arrays_of, read_only, state_of
-from shoal.run.strategy_errors import strategy_errors
-from shoal.scenario.schema import Scenario
+from shoal.scenario.crew import crew_of
+from shoal.scenario.load import Source, load
+from shoal.scenario.strategy_errors import strategy_errors
 from shoal.version import RESULTS_VERSION
 from shoal.world.placement import PLACES
 
@@ -36,7 +36,7 @@ class Simulation:
 
     Parameters
     ----------
-    scenario : what to run
+    scenario : what to run: a Scenario, or what shoal.load takes
     run : number of the replicate; with the seed it decides all chance
 
     Attributes
@@ -51,12 +51,13 @@ class Simulation:
 
     Raises
     ------
+    ScenarioError : it is none that can run
     TrackError : a recorded track cannot be used
     StrategyError : the strategy cannot be compiled, or raises an error
     """
 
-    def __init__(self, scenario: Scenario, run: int = 0) -> None:
-        self.scenario = scenario
+    def __init__(self, scenario: Source, run: int = 0) -> None:
+        self.scenario = scenario = load(scenario)  # whoever made or copied it
         self.run = run
         self.number = 0
         self.crew = crew_of(scenario)

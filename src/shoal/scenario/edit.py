@@ -1,4 +1,4 @@
-"""Changes to a scenario's raw table, before it is validated: what --fast, --set and sweeps do."""
+"""Changes to a scenario's raw table, before it is validated: what --fast, --set, sweeps and `with_` do."""
 
 import re
 import tomllib
@@ -9,25 +9,47 @@ from typing import Any
 
 from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.core.units import Unit
+from shoal.scenario.frozen import plain
+from shoal.scenario.schema import Scenario
+from shoal.scenario.strategy_choice import StrategyChoice
+from shoal.strategies.plugins import name_of
 
 Table = dict[str, Any]
+
+ORIGIN = "area.origin"
+READING = ("file", "id", "max_gap", "max_speed", "day_first")  # fields of a target: which fixes of a file are used
 
 
 def apply(table: Table, changes: Mapping[str, Any]) -> Table:
     """Return a changed copy of a table; names are shorthands (see SHORTHANDS) or dotted paths like network.neighbors.
 
+    Whole fields are set first, then shorthands, then paths into them, in whatever order they are given.
+
     Raises
     ------
     ScenarioError : a path that does not exist, or a shorthand that this scenario has no place for
     """
-    changed: Table = _copy(table)
-    for name, value in sorted(changes.items(), key=lambda change: change[0] != "agents"):  # others count on them
+    changed: Table = plain(table)
+    for name, value in sorted(changes.items(), key=_rank):
         key = name.replace("-", "_")
         if key in SHORTHANDS:
-            SHORTHANDS[key](changed, value)
+            SHORTHANDS[key](changed, plain(value))
+        elif "." in name:
+            set_path(changed, name, plain(value))
+        elif key in Scenario.model_fields:
+            changed[key] = plain(value)
         else:
-            set_path(changed, name, value)
+            known = [*SHORTHANDS, *Scenario.model_fields]
+            hint = did_you_mean(key, known) or f"there are: {', '.join(known)}; or a path such as network.loss; "
+            raise ScenarioError(name, f"is no field of a scenario (value {value!r})", hint.rstrip("; "))
+    _drop_digests(changed, changes)
     return changed
+
+
+def _rank(change: tuple[str, Any]) -> int:
+    """Which change comes first: what others count on."""
+    name = change[0].replace("-", "_")
+    return 3 if "." in name else 0 if name not in SHORTHANDS else 1 if name == "agents" else 2
 
 
 def set_path(table: Table, path: str, value: Any) -> None:
@@ -39,23 +61,25 @@ def set_path(table: Table, path: str, value: Any) -> None:
         if isinstance(here, list):
             here = here[_index(here, part, where)]
         elif not isinstance(here, dict):
-            raise ScenarioError(f"--set {path}", f"{where!r} is no field of a table", "mend the scenario first")
-        elif part == "strategy" and isinstance(here.get(part), str):
-            here[part] = here = {"name": here[part]}
+            raise ScenarioError(path, f"{where!r} is no field of a table", "mend the scenario first")
+        elif part == "strategy" and isinstance(here.get(part), (str, StrategyChoice)):
+            here[part] = here = _strategy_table(here[part])
         elif isinstance(here.get(part), (dict, list)):
             here = here[part]
         elif at == 0 and part not in here and part in ("area", "network", "motion", "strategy"):
             here = here.setdefault(part, {})
         else:
             hint = did_you_mean(part, here).rstrip() or f"there are: {', '.join(here)}"
-            raise ScenarioError(f"--set {path}", f"the scenario has no {where!r}", hint)
+            raise ScenarioError(path, f"the scenario has no {where!r}", hint)
     if not isinstance(here, dict):
-        raise ScenarioError(f"--set {path}", "names a whole entry of a list", f"name a field of it: {path}.FIELD=VALUE")
+        raise ScenarioError(path, "names a whole entry of a list", f"name a field of it: {path}.FIELD=VALUE")
     here[last] = value
 
 
 def parse_value(text: str) -> Any:
-    """Read a value as TOML would (number, true, list, "text"); anything else is text, such as 5 kn or sequential."""
+    """Read a value as TOML would (number, true, list, "text"), or null; anything else is text, such as 5 kn."""
+    if text == "null":
+        return None
     try:
         return tomllib.loads(f"value = {text}")["value"]
     except tomllib.TOMLDecodeError:
@@ -73,6 +97,16 @@ def parse_assignment(text: str) -> tuple[str, Any]:
     if not equals or not re.fullmatch(r"[\w.\-]+", path.strip()):
         raise ScenarioError(f"--set {text}", "is no assignment", "write path=value, such as network.neighbors=12")
     return path.strip(), parse_value(value.strip())
+
+
+def _drop_digests(table: Table, changes: Mapping[str, Any]) -> None:
+    """A recorded track that is read in another way is another one: the digest of the old one is void."""
+    targets = table.get("targets")
+    for n, target in enumerate(targets if isinstance(targets, list) else ()):
+        if isinstance(target, dict) and "digest" in target and f"targets.{n}.digest" not in changes:
+            reading = (ORIGIN, *(f"targets.{n}.{name}" for name in READING))
+            if any(name in changes for name in reading):
+                del target["digest"]
 
 
 def _set_neighbors(table: Table, value: Any) -> None:
@@ -130,12 +164,26 @@ def _set_target_speed(table: Table, value: Any) -> None:
 
 
 def _set_strategy(table: Table, value: Any) -> None:
-    """Another strategy with its defaults (the same one keeps its parameters), or a file that defines one."""
-    old = table.get("strategy")
-    if isinstance(value, str) and (value.endswith(".py") or "/" in value):
-        table["strategy"] = {"file": str(Path(value).resolve())}
-    elif not (isinstance(old, dict) and old.get("name") == value):
-        table["strategy"] = {"name": value}
+    """Another strategy with its defaults (the same one keeps its parameters), or a file that defines one.
+
+    A name asks for the strategy that has it now: a hash of its source is dropped.
+    """
+    old, name = _strategy_table(table.get("strategy")), name_of(value)
+    if isinstance(name, str) and (name.endswith(".py") or "/" in name):
+        table["strategy"] = {"file": str(Path(name).resolve())}
+    elif not isinstance(name, str):
+        table["strategy"] = name
+    elif old.get("name") == name:
+        table["strategy"] = {key: kept for key, kept in old.items() if key != "source" or "file" in old}
+    else:
+        table["strategy"] = {"name": name}
+
+
+def _strategy_table(choice: Any) -> Table:
+    """The table of a strategy that is one, a loaded one or a name; an empty one of anything else."""
+    if isinstance(choice, StrategyChoice):
+        return choice.flat()
+    return {"name": choice} if isinstance(choice, str) else choice if isinstance(choice, dict) else {}
 
 
 SHORTHANDS: dict[str, Callable[[Table, Any], None]] = {
@@ -174,10 +222,4 @@ def _index(entries: list[Any], part: str, where: str) -> int:
     names = [str(each.get("name", n) if isinstance(each, dict) else n) for n, each in enumerate(entries)]
     if part in names:
         return names.index(part)
-    raise ScenarioError(f"--set {where}", f"there is no entry {part!r}", f"there are: {', '.join(names)}")
-
-
-def _copy(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _copy(item) for key, item in value.items()}
-    return [_copy(item) for item in value] if isinstance(value, (list, tuple)) else value
+    raise ScenarioError(where, f"there is no entry {part!r}", f"there are: {', '.join(names)}")

@@ -4,13 +4,15 @@ import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from importlib import resources
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import tomli_w
 from pydantic import ValidationError
 
-from shoal.core.errors import ScenarioError, did_you_mean
+from shoal.core.errors import ScenarioError, StrategyError, did_you_mean
+from shoal.scenario.frozen import plain
 from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Join, Loss, Motion, Network, Scenario
 from shoal.scenario.strategy_choice import StrategyParamsError, params_model
 from shoal.scenario.targets import TARGETS
@@ -22,17 +24,70 @@ def presets() -> list[str]:
     return sorted(file.name.removesuffix(".toml") for file in _preset_folder().iterdir() if file.name.endswith(".toml"))
 
 
-def load(source: str | Path) -> Scenario:
-    """Return the scenario of a preset's name or of a TOML file.
+Source = str | PathLike[str] | Mapping[str, Any] | Scenario  # what can be read as a scenario
+
+
+def load(source: Source, /, **changes: Any) -> Scenario:
+    """Return the scenario of a preset's name, a TOML file, a table or another scenario, changed, validated.
+
+    >>> shoal.load("oceans2020", neighbors=10, fast=25, strategy="lattice")
+
+    Parameters
+    ----------
+    source : "oceans2020" (see shoal.list_presets), "mine.toml", a dict with what a file would say, a Scenario
+    changes : as in `Scenario.with_`
 
     Raises
     ------
-    ScenarioError : no such preset or file, not TOML, or not a scenario that can run
+    ScenarioError : no such preset or file, not TOML, not a scenario that can run, or a change that it has no place for
+    TrackError : the recorded track of `target_track` cannot be used
+    StrategyError : the strategy cannot be loaded, or was defined anew since the scenario was made
     """
-    return scenario_from(read_table(source), where=str(source), text=_text_of(source))
+    table, where, text = table_of(source), name_of_source(source), ""
+    if changes:
+        from shoal.scenario.change import change  # which needs scenario_from
+
+        table = change(table, changes)
+    elif isinstance(source, (str, PathLike)):
+        text = _text_of(source)
+    scenario = scenario_from(table, where=where, text=text)
+    _refuse_outdated(scenario)
+    return scenario
 
 
-def read_table(source: str | Path) -> dict[str, Any]:
+def table_of(source: Source) -> dict[str, Any]:
+    """Return the raw table of what can be read as a scenario.
+
+    Raises
+    ------
+    ScenarioError : it cannot
+    """
+    if isinstance(source, (str, PathLike)):
+        return read_table(source)
+    if not isinstance(source, (Scenario, Mapping)):
+        names = ", ".join(presets())
+        raise ScenarioError("scenario", f"is {source!r:.60}", f"give a preset's name ({names}), a file, or a Scenario")
+    table: dict[str, Any] = plain(source)
+    return table
+
+
+def name_of_source(source: Source) -> str:
+    """What errors call it."""
+    return str(source) if isinstance(source, (str, PathLike)) else "scenario"
+
+
+def _refuse_outdated(scenario: Scenario) -> None:
+    choices = (scenario.strategy, *(fleet.strategy for fleet in scenario.fleets))
+    for choice in choices:
+        if choice and choice.outdated:
+            raise StrategyError(
+                f"strategy {choice.name!r}",
+                "was defined anew since this scenario was made",
+                f'take the new one: scenario.with_(strategy="{choice.name}")',
+            )
+
+
+def read_table(source: str | PathLike[str]) -> dict[str, Any]:
     """Return the raw table of a preset's name or of a TOML file; files that it names become absolute paths."""
     text = _text_of(source)
     try:
@@ -57,18 +112,18 @@ def scenario_from(table: Mapping[str, Any], *, where: str = "scenario", text: st
     ScenarioError : unknown, missing or wrong fields
     StrategyError : the strategy's file or package cannot be loaded
     """
-    table = dict(table)
-    if "strategy" in table:
-        table["strategy"] = load_strategies(table["strategy"])
-    if isinstance(table.get("fleets"), (list, tuple)):
-        table["fleets"] = [_with_own_strategy(fleet) for fleet in table["fleets"]]
+    written: dict[str, Any] = plain(table)
+    if "strategy" in written:
+        written["strategy"] = load_strategies(written["strategy"])
+    if isinstance(written.get("fleets"), list):
+        written["fleets"] = [_with_own_strategy(fleet) for fleet in written["fleets"]]
     try:
-        return Scenario.model_validate(table)
+        return Scenario.model_validate(written)
     except StrategyParamsError as error:
-        problems = [((*_strategy_path(error.table, table), *each["loc"]), each) for each in error.error.errors()]
+        problems = [((*_strategy_path(error.table, written), *each["loc"]), each) for each in error.error.errors()]
     except ValidationError as error:
         problems = [(each["loc"], each) for each in error.errors()]
-    raise _as_scenario_error(problems, table, where, text)
+    raise _as_scenario_error(problems, written, where, text)
 
 
 def _with_own_strategy(fleet: Any) -> Any:
@@ -87,8 +142,13 @@ def _strategy_path(wrong: Any, table: Mapping[str, Any]) -> tuple[Any, ...]:
 
 
 def to_toml(scenario: Scenario) -> str:
-    """Return the scenario as TOML that loads back to an equal scenario."""
-    return tomli_w.dumps(_without_none(scenario.model_dump(mode="json")))
+    """Return the scenario as TOML that loads back to an equal scenario.
+
+    Raises
+    ------
+    ScenarioError : it is none that can run
+    """
+    return tomli_w.dumps(_without_none(load(scenario).model_dump(mode="json")))
 
 
 def preset_text(name: str) -> str | None:
@@ -96,7 +156,7 @@ def preset_text(name: str) -> str | None:
     return (_preset_folder() / f"{name}.toml").read_text(encoding="utf-8") if name in presets() else None
 
 
-def _text_of(source: str | Path) -> str:
+def _text_of(source: str | PathLike[str]) -> str:
     preset = preset_text(str(source))
     if preset is not None:
         return preset
@@ -105,10 +165,11 @@ def _text_of(source: str | Path) -> str:
         return path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
         raise ScenarioError(str(source), "is not a text file", "name a TOML file or a preset") from None
-    except OSError as error:
+    except (OSError, ValueError) as error:  # ValueError: a null byte
         hint = did_you_mean(str(source), presets())
-        reason = "no preset and no file of this name" if isinstance(error, FileNotFoundError) else str(error.strerror)
-        raise ScenarioError(str(source), reason, f"{hint}presets: {', '.join(presets())}") from None
+        found = isinstance(error, OSError) and not isinstance(error, FileNotFoundError) and str(source)
+        reason = str(getattr(error, "strerror", error)) if found else "no preset and no file of this name"
+        raise ScenarioError(str(source) or "''", reason, f"{hint}presets: {', '.join(presets())}") from None
 
 
 def _preset_folder() -> Any:

@@ -2,11 +2,16 @@
 
 import hashlib
 import json
-from typing import Annotated, Any, Literal, Self
+from collections.abc import Mapping
+from html import escape
+from typing import Annotated, Any, Literal, Self, cast
 
 from pydantic import Field, model_validator
 
+from shoal.core.errors import ScenarioError, ShoalError, did_you_mean
+from shoal.core.sheet import shown
 from shoal.core.units import Degrees, Kilograms, Meters, MetersPerSecond, Seconds
+from shoal.scenario.choices import headline
 from shoal.scenario.frozen import Chance, Count, Frozen, NotNegative, Positive
 from shoal.scenario.strategy_choice import StrategyChoice
 from shoal.scenario.targets import MovingTarget, Target
@@ -146,6 +151,64 @@ class Scenario(Frozen):
     targets: tuple[Target, ...] = Field(min_length=1, description="one or more targets")
     losses: tuple[Loss, ...] = Field(default=(), description="agents that are lost during the run")
     joins: tuple[Join, ...] = Field(default=(), description="agents that join during the run")
+
+    def with_(self, **changes: Any) -> "Scenario":
+        """Return a changed scenario, in the words of the command line, validated.
+
+        >>> scenario.with_(neighbors=10, target_speed="6 kn", strategy="encircle", **{"network.loss": 0.1})
+
+        Parameters
+        ----------
+        changes : shorthands (neighbors, fast, agents, target_speed, strategy, target_track, track_id), fields of a
+            scenario (steps, seed, ...) or paths such as network.loss, fleets.0.count; quantities may have a unit
+
+        Raises
+        ------
+        ScenarioError, TrackError, StrategyError : what cannot run
+        """
+        from shoal.scenario.load import load  # which needs this class
+
+        return load(self, **changes)
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Return a copy with whole fields changed, validated; see `with_`, which knows shorthands and paths.
+
+        Raises
+        ------
+        ScenarioError, StrategyError : unknown or wrong fields
+        """
+        if not update:
+            return super().model_copy(deep=deep)
+        for name in update:
+            if name not in type(self).model_fields:
+                hint = did_you_mean(name, type(self).model_fields).rstrip() or f"scenario.with_(**{{{name!r}: ...}})"
+                raise ScenarioError(name, f"is no field of a scenario (value {update[name]!r})", hint)
+        from shoal.scenario.load import scenario_from
+
+        return cast(Self, scenario_from({**vars(self), **update}))
+
+    def __repr__(self) -> str:
+        """One line: who looks for what, for how long."""
+        try:
+            table = self.model_dump(mode="json")
+            return (
+                f"<Scenario {shown(self.name)}: {shown(headline(table))}; "
+                f"{self.steps:,} steps of {self.time_step:g} s, seed {self.seed}, {self.hash}>"
+            )
+        except Exception:  # one made by force must be shown, too
+            return "<Scenario that cannot run>"
+
+    __str__ = __repr__
+
+    def _repr_html_(self) -> str:
+        """The line, and the scenario as its file would say it, for a notebook."""
+        from shoal.scenario.load import to_toml
+
+        try:
+            text = to_toml(self)
+        except ShoalError as error:
+            text = str(error)
+        return f"<details><summary>{escape(repr(self))}</summary><pre>{escape(text)}</pre></details>"
 
     @property
     def counts(self) -> list[int]:

@@ -11,7 +11,7 @@ from pydantic_core import PydanticCustomError, core_schema
 from shoal.core.units import Choice, Says, Unit
 from shoal.strategies import CATALOGUE, Strategy
 from shoal.strategies.installed import installed_names, load_all_installed
-from shoal.strategies.plugins import find_strategy, source_of
+from shoal.strategies.plugins import find_strategy, load_strategies, source_of
 
 
 class StrategyChoice:
@@ -51,6 +51,11 @@ class StrategyChoice:
             values[field] = words.words.index(value) if words else type(params._field_defaults[field])(value)
         return params(**values)
 
+    @property
+    def outdated(self) -> bool:
+        """Whether its strategy, which is no file's, was defined anew since, as in a notebook's cell run twice."""
+        return self.file is None and CATALOGUE.get(self.name, self.owner) is not self.owner
+
     def __eq__(self, other: object) -> bool:
         return isinstance(other, StrategyChoice) and self.flat() == other.flat()
 
@@ -60,11 +65,17 @@ class StrategyChoice:
     def __repr__(self) -> str:
         return f"StrategyChoice({self.flat()})"
 
+    def __deepcopy__(self, memo: dict[int, Any]) -> "StrategyChoice":
+        return StrategyChoice(self.owner, self.file, self.source, dict(self.params))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _revived, (self.flat(),)  # as a file would say it: compiled functions cannot travel
+
     @classmethod
     def validate(cls, value: Any) -> "StrategyChoice":
         """Return the choice that a table describes; see `load_strategies` for files and packages."""
-        if isinstance(value, cls):
-            return value
+        if isinstance(value, cls):  # one that somebody may have changed since
+            return cls(value.owner, value.file, value.source, _filled(value.owner, value.params))
         if isinstance(value, str):
             value = {"name": value}
         if not isinstance(value, dict) or "name" not in value:
@@ -77,8 +88,7 @@ class StrategyChoice:
             raise PydanticCustomError("strategy_name", "unknown strategy; there are: {known}", {"known": known})
         if file is None:
             source = source_of(owner)
-        filled = params_model(owner)(**table).model_dump(exclude={"name"})
-        return cls(owner, file, source, filled)
+        return cls(owner, file, source, _filled(owner, table))
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> core_schema.CoreSchema:
@@ -105,6 +115,11 @@ class StrategyChoice:
         return {"anyOf": [*(params_model(each).model_json_schema() for each in known), names, from_file]}
 
 
+def _revived(table: dict[str, Any]) -> StrategyChoice:
+    """The choice of a pickled table, its file or package loaded."""
+    return StrategyChoice.validate(load_strategies(table))
+
+
 class StrategyParamsError(Exception):
     """Carries pydantic's error about a parameter out of the scenario's own validation."""
 
@@ -112,6 +127,11 @@ class StrategyParamsError(Exception):
         super().__init__(str(error))
         self.error = error
         self.table = table
+
+
+def _filled(owner: Strategy, given: dict[str, Any]) -> dict[str, Any]:
+    """Every parameter of a strategy, valid."""
+    return params_model(owner)(**given).model_dump(exclude={"name"})
 
 
 def params_model(owner: Strategy) -> type[BaseModel]:

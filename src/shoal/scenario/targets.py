@@ -104,17 +104,22 @@ class DriftTarget(MovingTarget):
 
 
 class TrackTarget(Frozen):
-    """A recorded track: CSV, GPX or NetCDF in longitude and latitude."""
+    """A recorded track in longitude and latitude: CSV, NMEA, GPX, KML, GeoJSON or NetCDF."""
 
     kind: Literal["track"] = "track"
-    file: str = Field(min_length=1, description="CSV, GPX or CF NetCDF file; relative to the scenario's folder")
-    id: str | None = Field(default=None, description='which track of the file, as "COLUMN=VALUE"')
+    file: str = Field(
+        min_length=1, description="CSV, NMEA, GPX, KML, GeoJSON or CF NetCDF file; relative to the scenario's folder"
+    )
+    id: str | None = Field(default=None, description='which track of the file, as "COLUMN=VALUE"; "all" joins all')
     radius: Annotated[Meters, NotNegative] = Field(description="rho: size of the target [m]")
     max_gap: Annotated[Seconds, Positive] | None = Field(
         default=None, description="in a longer silence the target is not there [s]; default from the data"
     )
     max_speed: Annotated[MetersPerSecond, Positive] = Field(
         default=40.0, description="a faster jump between two fixes is a GPS error [m/s]"
+    )
+    day_first: bool | None = Field(
+        default=None, description="dates such as 10/03/2024 are in March; default from the data"
     )
     digest: str | None = Field(
         default=None, description="hash of the fixes used; Shoal fills it in, then insists on it"

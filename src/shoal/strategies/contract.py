@@ -16,10 +16,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from numba.core.errors import TypingError
-from numba.extending import overload
-
-from shoal.compiler.kernel import kernel
+from shoal.compiler.kernel import TypingError, kernel, overload
 from shoal.core.errors import StrategyError
 from shoal.core.messages import Heard
 from shoal.strategies.rank import asks_for_rank
@@ -143,7 +140,7 @@ def strategy(
                 raise StrategyError(where, f"{role} takes {count} arguments", f"let it take {wanted}")
         if influence is None and tuple(sums) != _TWO_SUMS:
             raise StrategyError(where, "names sums, but nothing adds to them", "give influence=...")
-        if leads and asks_for_rank(leads):
+        if leads and "rank" not in fields and asks_for_rank(leads):
             problem = "leads asks for other.rank, but is asked once for all listeners"
             raise StrategyError(where, problem, "let priority return math.inf for whom this agent does not follow")
         remembered = dict(memory or {})

@@ -2,6 +2,7 @@
 
 import hashlib
 import importlib.util
+import linecache
 import sys
 from pathlib import Path
 from types import TracebackType
@@ -19,6 +20,8 @@ def load_strategies(choice: Any) -> Any:
     ------
     StrategyError : the file or package cannot be loaded, or is not the one that the table was made with
     """
+    if not isinstance(choice, (dict, str)):
+        return choice  # loaded already, or wrong
     if isinstance(choice, dict) and isinstance(choice.get("file"), str):
         return _load_file(choice)
     table = choice if isinstance(choice, dict) else {"name": choice}
@@ -43,10 +46,21 @@ def find_strategy(name: str, source: object = None) -> Strategy | None:
     return loaded.get(name) or CATALOGUE.get(name) or load_installed(name)
 
 
+def name_of(choice: Any) -> Any:
+    """The name of a strategy given as the function that @shoal.strategy decorates; anything else unchanged."""
+    return next((known.name for known in CATALOGUE.values() if known.decide is choice), choice)
+
+
 def source_of(known: Strategy) -> str | None:
-    """First 16 hex digits of a hash over the file that defines a user's strategy; None of a built-in or typed one."""
+    """First 16 hex digits of a hash over the file or the notebook cell that defines a user's strategy.
+
+    None of a built-in one, and of one whose text nobody has kept.
+    """
     path = Path(known.source)
-    return None if known.builtin or not path.is_file() else _hash(path.read_bytes())
+    if known.builtin:
+        return None
+    text = path.read_bytes() if path.is_file() else "".join(linecache.getlines(known.source)).encode()
+    return _hash(text) if text else None
 
 
 def _load_file(choice: dict[str, Any]) -> dict[str, Any]:

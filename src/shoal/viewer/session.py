@@ -3,8 +3,8 @@
 from collections.abc import Callable, Sequence
 
 from shoal.core.errors import ScenarioError
-from shoal.run.crew import crew_of
 from shoal.run.simulate import chunk_steps
+from shoal.scenario.crew import crew_of
 from shoal.scenario.schema import Scenario
 from shoal.strategies import CATALOGUE
 from shoal.viewer.frame import SCALARS, gauges_of

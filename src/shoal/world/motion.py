@@ -12,8 +12,7 @@ def limited(vx, vy, max_speed, divide):
     With `divide`, do what Algorithm 2 of the paper prints instead: v <- v / vmax for every agent, which never limits a
     1 m/s buoy and slows the others.
     """
-    speed = math.sqrt(vx * vx + vy * vy)
-    scale = 1.0 / max_speed if divide else max_speed / (speed if speed > max_speed else max_speed)
+    scale = speed_scale(vx, vy, max_speed, divide)
     return vx * scale, vy * scale
 
 
@@ -57,6 +56,13 @@ def limit_speed(command_x, command_y, max_speed, divide):
     """Limit the velocities (B,) of a block of agents, in place."""
     for i in range(command_x.size):
         command_x[i], command_y[i] = limited(command_x[i], command_y[i], max_speed[i], divide)
+
+
+@kernel
+def speed_scale(vx, vy, max_speed, divide):
+    """By what a wanted velocity is multiplied: 1 within the top speed [m/s], 1 / top speed with `divide`."""
+    speed = math.sqrt(vx * vx + vy * vy)
+    return 1.0 / max_speed if divide else max_speed / (speed if speed > max_speed else max_speed)
 
 
 @kernel

@@ -120,12 +120,6 @@ def adapted(contact, on_contact, weight):
 
 
 @kernel
-def degree_of(contact, fewest, most):
-    """The k that a contact asks for."""
-    return int(fewest + (most - fewest) * contact + 0.5)
-
-
-@kernel
 def limit_links(links, swarm, radio, first, agents, number):
     """Unlink who is out of range, not there, or has said nothing yet; links.wanted becomes k, or all that are left.
 
@@ -160,10 +154,20 @@ def lose_reports(links, radio, step_key, first, agents):
 def begin_degree(swarm, radio, agents):
     """Let k start between fewest and most, with the contact that belongs to it."""
     for i in range(agents):
-        span = radio.most[i] - radio.fewest[i]
-        above = min(max(swarm.neighbors[i] - radio.fewest[i], 0), span)
-        swarm.neighbors[i] = radio.fewest[i] + above
-        swarm.contact[i] = above / span if span > 0 else 0.0
+        swarm.neighbors[i], swarm.contact[i] = first_degree(swarm.neighbors[i], radio.fewest[i], radio.most[i])
+
+
+@kernel
+def first_degree(k, fewest, most):
+    """k to start with, between two bounds, and the contact that belongs to it."""
+    above = min(max(k - fewest, 0), most - fewest)
+    return fewest + above, above / (most - fewest) if most > fewest else 0.0
+
+
+@kernel
+def degree_of(contact, fewest, most):
+    """k that belongs to a contact from 0 to 1."""
+    return int(fewest + (most - fewest) * contact + 0.5)
 
 
 @kernel

@@ -1,22 +1,9 @@
-"""Where the runs of a comparison go: the folder of --out, or one that is gone afterwards."""
+"""What a comparison says of runs that failed."""
 
-import tempfile
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from pathlib import Path
+from collections.abc import Iterable
 from typing import Any
 
 from shoal.cli.progress import note
-
-
-@contextmanager
-def store_folder(out: Path | None) -> Iterator[Path]:
-    """Yield the folder."""
-    if out:
-        yield out
-        return
-    with tempfile.TemporaryDirectory(prefix="shoal-compare-") as folder:
-        yield Path(folder)
 
 
 def tell_failures(rows: Iterable[dict[str, Any] | None]) -> None:

@@ -6,7 +6,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from shoal.cli.compare.runs import store_folder, tell_failures
+from shoal.cli.compare.runs import tell_failures
 from shoal.cli.progress import note
 from shoal.cli.sweep_progress import sweep_progress
 
@@ -26,7 +26,6 @@ def compare_suite(
 ) -> None:
     """Run what is missing of a suite, and print its leaderboard."""
     from shoal.cli.compare.data import leaderboard_data
-    from shoal.cli.compare.figure import leaderboard_figure
     from shoal.cli.compare.table import print_leaderboard
     from shoal.experiments.compiled_first import compiled_first
     from shoal.experiments.contenders import contenders
@@ -35,6 +34,8 @@ def compare_suite(
     from shoal.experiments.leaderboard_page import page_around, write_page
     from shoal.experiments.suite import read_suite, resized, run_suite, suite_values
     from shoal.strategies import CATALOGUE
+    from shoal.study.comparison_figure import leaderboard_figure
+    from shoal.study.folder import store_folder
 
     suite = resized(read_suite(name), runs=runs, steps=steps, seed=seed)
     everybody = contenders(named or sorted(CATALOGUE))

@@ -22,3 +22,14 @@ def _of_fleets(scenario: Mapping[str, Any], value: Callable[[Mapping[str, Any]],
     if len(set(values.values())) == 1:
         return next(iter(values.values()))
     return ", ".join(f"{each} ({name})" for name, each in values.items())
+
+
+def headline(scenario: Mapping[str, Any]) -> str:
+    """Who looks for what, in one line: 15 fast (8 m/s) + 35 slow (5 m/s), k = 20, knn-pso; waypoint target at 3 m/s."""
+    fleets = " + ".join(f"{each['count']} {each['name']} ({each['max_speed']:g} m/s)" for each in scenario["fleets"])
+    targets = " and ".join(map(_target, scenario["targets"]))
+    return f"{fleets}, k = {degree_text(scenario)}, {strategy_text(scenario)}; {targets}"
+
+
+def _target(target: Mapping[str, Any]) -> str:
+    return f"{target['kind']} target" + (f" at {target['speed']:g} m/s" if "speed" in target else "")

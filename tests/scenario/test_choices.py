@@ -1,6 +1,6 @@
 """What fleets were given is said once, or of each."""
 
-from shoal.record.choices import degree_text, strategy_text
+from shoal.scenario.choices import degree_text, strategy_text
 
 
 def scenario(*fleets, **network):

@@ -1,6 +1,7 @@
 """Fixes of a NetCDF file: CF trajectories, single, rectangular, ragged or indexed."""
 
-from collections.abc import Iterator, Sequence
+import warnings
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -8,8 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from shoal.core.errors import MissingExtraError, TrackError
-from shoal.scenario.track_table import ID_NAMES, LAT_NAMES, LON_NAMES, TIME_NAMES, Row, Table, comparable
+from shoal.core.errors import MissingExtraError, ShoalError, TrackError
+from shoal.tracks import names
+from shoal.tracks.names import LAT_NAMES, LON_NAMES, TIME_NAMES
+from shoal.tracks.table import Table, comparable, labels
+from shoal.tracks.wanted import Wanted
 
 if TYPE_CHECKING:
     import netCDF4
@@ -23,25 +27,39 @@ SECONDS = {
 REAL_CALENDARS = ("standard", "gregorian", "proleptic_gregorian")
 
 
-def netcdf_table(path: Path, track_id: str | None) -> Table:
-    """Return the fixes of every trajectory of a CF file; a trajectory has an index and may have an id."""
+def netcdf_table(path: Path, wanted: Wanted) -> Table:
+    """Return the fixes of every trajectory of a CF file; a trajectory has an index and may have an id.
+
+    Raises
+    ------
+    TrackError : it holds no trajectories, or times that cannot be decoded
+    MissingExtraError : netCDF4 is not installed
+    """
     netcdf4 = _netcdf4()
-    with netcdf4.Dataset(path) as dataset:
-        lat = _variable(path, dataset, "latitude", LAT_NAMES, ("degree_north", "degrees_north"))
-        lon = _variable(path, dataset, "longitude", LON_NAMES, ("degree_east", "degrees_east"))
-        time = _variable(path, dataset, "time", TIME_NAMES, (" since ",))
-        _check_dimensions(path, lat, lon, time)
-        values = (_decoded_time(path, netcdf4, time), lat[...], lon[...])
-        if lat.ndim == 1:
-            owner, dimension = _ragged_owner(path, dataset, lat)
-        else:
-            dimension = _trajectory_dimension(dataset, lat, time)
-            values = _by_trajectory(values, lat.dimensions.index(dimension))
-            owner = np.indices(values[1].shape)[0].ravel()
-        owner, id_name, ids = _ids(netcdf4, dataset, owner, dimension)
-    labels = _labels(ids, track_id)
-    rows = _netcdf_rows(path, values, [(labels[i], ids[i]) for i in owner])
-    return Table(tuple(dict.fromkeys(("trajectory", id_name))), (id_name,), rows)
+    try:
+        with warnings.catch_warnings(), netcdf4.Dataset(path) as dataset:
+            warnings.simplefilter("ignore")  # netCDF4's own, of attributes that it does not use
+            return _trajectories(path, netcdf4, dataset, wanted)
+    except (ShoalError, OSError):
+        raise
+    except Exception as error:  # what netCDF4 raises on a damaged file has no common class
+        raise TrackError(str(path), f"cannot be read ({error})", "export it again") from error
+
+
+def _trajectories(path: Path, netcdf4: Any, dataset: "netCDF4.Dataset", wanted: Wanted) -> Table:
+    lat = _variable(path, dataset, "latitude", LAT_NAMES, ("degree_north", "degrees_north"))
+    lon = _variable(path, dataset, "longitude", LON_NAMES, ("degree_east", "degrees_east"))
+    time = _variable(path, dataset, "time", TIME_NAMES, (" since ",))
+    _check_dimensions(path, lat, lon, time)
+    values = (_decoded_time(path, netcdf4, time), lat[...], lon[...])
+    if lat.ndim == 1:
+        owner, dimension = _ragged_owner(path, dataset, lat)
+    else:
+        dimension = _trajectory_dimension(dataset, lat, time)
+        values = _by_trajectory(values, lat.dimensions.index(dimension))
+        owner = np.indices(values[1].shape)[0].ravel()
+    owner, id_name, ids = _ids(netcdf4, dataset, owner, dimension)
+    return _table(path, values, owner, id_name, ids, wanted)
 
 
 def _netcdf4() -> Any:
@@ -53,7 +71,7 @@ def _netcdf4() -> Any:
 
 
 def _variable(
-    path: Path, dataset: "netCDF4.Dataset", standard_name: str, names: Sequence[str],
+    path: Path, dataset: "netCDF4.Dataset", standard_name: str, known: Sequence[str],
     units: Sequence[str],
 ) -> Any:  # fmt: skip
     """The numeric variable most like `standard_name`, by standard_name, name and units."""
@@ -61,7 +79,7 @@ def _variable(
     def likeness(variable: Any) -> int:
         has_units = any(unit in _text(variable, "units").lower() for unit in units)
         has_standard_name = _text(variable, "standard_name") == standard_name
-        return 4 * has_standard_name + 2 * (variable.name.lower() in names) + has_units
+        return 4 * has_standard_name + 2 * (names.plain(variable.name) in known) + has_units
 
     there = dataset.variables
     numeric = [v for v in there.values() if v.dtype is not str and v.dtype.kind in "iuf"]
@@ -166,7 +184,8 @@ def _by_trajectory(values: tuple[Any, Any, Any], axis: int) -> tuple[Any, Any, A
 
 def _id_variables(dataset: "netCDF4.Dataset") -> list[Any]:
     there = list(dataset.variables.values())
-    named = [v for name in ID_NAMES for v in there if v.name.lower() == name]
+    ranked = [(rank, v) for v in there if (rank := names.rank(v.name)) is not None]
+    named = [v for _, v in sorted(ranked, key=lambda each: each[0])]
     return [v for v in there if _text(v, "cf_role") == "trajectory_id"] + named
 
 
@@ -199,23 +218,43 @@ def _id_texts(netcdf4: Any, variable: Any, dimension: str) -> list[str]:
     return [str(text).strip("\0 ") for text in np.atleast_1d(texts).ravel()]
 
 
-def _labels(ids: list[str], track_id: str | None) -> list[str]:
+def _table(
+    path: Path, values: tuple[Any, Any, Any], owner: NDArray[np.intp], id_name: str, ids: list[str], wanted: Wanted
+) -> Table:
+    """All fixes but those that only fill up a row."""
+    shape = values[1].shape
+    time, lat, lon = map(_with_nan, values)
+    fixes = np.flatnonzero(~(np.isnan(time) & np.isnan(lat) & np.isnan(lon)))
+
+    def place(index: int) -> str:
+        return f"{path}[{', '.join(str(k) for k in np.unravel_index(index, shape))}]"
+
+    named, own = _labels(ids, wanted), owner[fixes].tolist()
+    by_name = {id_name: labels(ids[i] for i in own), "trajectory": labels(named[i] for i in own)}
+    return Table(
+        columns=list(dict.fromkeys(("trajectory", id_name))),
+        time=time[fixes],
+        lat=lat[fixes],
+        lon=lon[fixes],
+        line=fixes,
+        labels=by_name,
+        place=place,
+        identifiers=(id_name,),
+    )
+
+
+def _with_nan(values: Any) -> NDArray[np.float64]:
+    """One row of numbers, NaN where one is missing."""
+    known = np.ma.masked_invalid(np.ma.asarray(values, np.float64))
+    return np.asarray(np.ma.filled(known, np.nan)).ravel()
+
+
+def _labels(ids: list[str], wanted: Wanted) -> list[str]:
     """What trajectory=VALUE is compared with: the identifiers, or where none fits the indices."""
-    name, _, value = (part.strip() for part in (track_id or "").partition("="))
     by_index = (
-        name.lower() == "trajectory"
-        and value.isdecimal()
-        and int(value) < len(ids)
-        and comparable(value) not in {comparable(text) for text in ids}
+        wanted.column.lower() == "trajectory"
+        and wanted.value.isdecimal()
+        and int(wanted.value) < len(ids)
+        and comparable(wanted.value) not in {comparable(text) for text in ids}
     )
     return [str(i) for i in range(len(ids))] if by_index else ids
-
-
-def _netcdf_rows(path: Path, values: tuple[Any, Any, Any], cells: Sequence[Sequence[str]]) -> Iterator[Row]:
-    shape = values[1].shape
-    masks = np.array([np.ma.getmaskarray(value).ravel() for value in values])
-    padding, missing = np.logical_and.reduce(masks), np.logical_or.reduce(masks)
-    time, lat, lon = (np.ma.getdata(value).ravel().tolist() for value in values)
-    for i in np.flatnonzero(~padding).tolist():
-        index = ", ".join(str(k) for k in np.unravel_index(i, shape))
-        yield Row(f"{path}[{index}]", time[i], lat[i], lon[i], cells[i], missing[i])
