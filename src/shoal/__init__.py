@@ -14,6 +14,7 @@ list_strategies, list_metrics, list_presets    what there is
 strategy, kernel, uniform, normal              to write a strategy, with the units
 Meters, MetersPerSecond, Seconds, Degrees      of its parameters
 plot                                           every figure, in one line each
+Buoy, Reading, Report, briefing                to decide on board, without an engine
 ShoalError                                     base of every error raised on purpose
 
 `help(shoal.simulate)` and so on say more.

@@ -57,7 +57,8 @@ class TestFluctuation:
 
     def test_does_not_mind_whether_a_target_is_there(self):
         simulation = coasting(RING[:2], [(0.5, 0.0), (-0.5, 0.0)])
-        simulation.targets["present"] = 0
+        with simulation.edit() as now:
+            now.targets["present"] = 0
         simulation.advance(1)
         assert simulation.tally.fluctuation.sum() == pytest.approx(1.0)
 

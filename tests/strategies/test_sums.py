@@ -99,8 +99,10 @@ class TestSums:
         fleets = [{"name": "all", "count": 50, "max_speed": 1.0, "start": "center"}]
         chosen = scenario("oceans2020", {"strategy": witness, "fleets": fleets})
         simulation = Simulation(chosen)
-        simulation.swarm.x[:50] = np.arange(50) // 25
-        simulation.swarm.y[:50] = 0.0
+        with simulation.edit() as now:
+            now.swarm.x[:50] = np.arange(50) // 25
+        with simulation.edit() as now:
+            now.swarm.y[:50] = 0.0
         frames = simulation.advance(2, every=1)
         assert frames.memory["near_x"][1].tolist() == [0.0] * 25 + [6.0] * 25
         assert (frames.memory["ranks"][1] == sum(range(K))).all()

@@ -15,7 +15,6 @@ from shoal.run.simulate import simulate
 from shoal.run.simulation import Simulation
 from shoal.scenario.edit import apply
 from shoal.scenario.load import read_table, scenario_from
-from shoal.viewer.glance import glance
 from shoal.viewer.live import LiveRun
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "my_strategy.py"
@@ -47,17 +46,16 @@ class TestGlance:
     def test_it_sees_what_a_record_keeps(self):
         run = live(steps=37)
         kept = simulate(run.simulation.scenario.model_copy(update={"steps": 38}), every=1).trajectories[0]
-        seen, _ = glance(run.simulation)
+        seen = run.simulation.look()
         for name, values in seen.arrays().items():
             assert values[0].tobytes() == kept.arrays()[name][37].tobytes()
 
-    def test_it_tallies_one_step(self):
+    def test_its_xi_is_what_the_coming_step_will_measure(self):
         run = live(steps=37)
-        _, alone = glance(run.simulation)
-        before = run.simulation.tally.fluctuation.sum()
+        xi, before = decode(run.frame()).xi_now, run.simulation.tally.fluctuation.sum()
         run.advance(1)
-        assert alone.steps.sum() == 1
-        assert alone.fluctuation.sum() == pytest.approx(run.simulation.tally.fluctuation.sum() - before)
+        gained = run.simulation.tally.fluctuation.sum() - before
+        assert xi == pytest.approx(gained / 50 / 1.48, rel=1e-6)
 
 
 class TestFrame:

@@ -203,7 +203,8 @@ class TestDelay:
         swarm = simulation.swarm
         track = []
         for number in range(20):
-            swarm.x[:2], swarm.y[:2] = [-300.0 + number, 400.0], 0.0  # the first is on target and drawn along by hand
+            with simulation.edit() as now:  # the first is on target and drawn along by hand
+                now.swarm.x[:2], now.swarm.y[:2] = [-300.0 + number, 400.0], 0.0
             track.append(swarm.x[0])
             simulation.advance(1)
             if number >= 4:
@@ -240,7 +241,8 @@ class TestTruth:
         heard = np.zeros(50, bool)
         for simulation, shift in ((one, 0.0), (other, 3.0)):
             simulation.advance(steps)
-            simulation.swarm.x[agent] -= np.copysign(shift, simulation.swarm.x[agent])
+            with simulation.edit() as now:
+                now.swarm.x[agent] -= np.copysign(shift, now.swarm.x[agent])
             simulation.advance(1)
             links = simulation._scratch.links
             heard |= (links.square <= links.reach)[agent, :50]
@@ -254,7 +256,8 @@ class TestTruth:
         one, other = Simulation(chosen), Simulation(chosen)
         one.advance(100)
         other.advance(100)
-        other.swarm.x[0] += 0.25
+        with other.edit() as now:
+            now.swarm.x[0] += 0.25
         for step in range(6):
             one.advance(1)
             other.advance(1)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from shoal.core.agents import Swarm, new_swarm
+from shoal.core.agents import new_swarm
 from shoal.scenario.briefing import degrees, shares
 from shoal.scenario.crew import Crew
 from shoal.scenario.on_track import open_track
@@ -22,7 +22,7 @@ from shoal.scenario.targets import (
 )
 from shoal.tracks.track import Track
 from shoal.world.arena import World
-from shoal.world.radio import Radio, new_radio
+from shoal.world.radio import new_radio
 from shoal.world.targets import KINDS, TARGET, Tracks
 
 
@@ -50,7 +50,7 @@ def _is_mortal(scenario: Scenario) -> bool:
     return bool(scenario.losses or scenario.joins or any(fleet.mean_lifetime for fleet in scenario.fleets))
 
 
-def build_swarm(scenario: Scenario, crew: Crew) -> Swarm:
+def build_swarm(scenario: Scenario, crew: Crew) -> Any:
     """Agents in the order of the fleets, nowhere yet; those who join later are the last of their fleet."""
     agents, fleets, counts = scenario.agents, scenario.fleets, scenario.counts
     swarm = new_swarm(counts, crew.memory, crew.told)
@@ -76,7 +76,7 @@ def build_swarm(scenario: Scenario, crew: Crew) -> Swarm:
     return swarm
 
 
-def build_radio(scenario: Scenario, crew: Crew, lanes: int) -> Radio:
+def build_radio(scenario: Scenario, crew: Crew, lanes: int) -> Any:
     """Limits of the network, and room for what is under way. Strategies that hear all are told so here, too."""
     network, adaptive = scenario.network, scenario.network.adaptive
     radio = new_radio(

@@ -1,5 +1,7 @@
 """Simulation: one run of a scenario that can be advanced, looked at, saved and resumed at any step."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
@@ -19,6 +21,7 @@ from shoal.metrics.tally import new_tally
 from shoal.record.trajectory import Trajectory
 from shoal.run.build import build_radio, build_swarm, build_targets, build_world, losses_of, open_tracks
 from shoal.run.compiling import entry_points
+from shoal.run.state import State, arrays_of, read_only, state_of
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
 from shoal.scenario.strategy_errors import strategy_errors
@@ -40,9 +43,11 @@ class Simulation:
     Attributes
     ----------
     number : steps done
-    swarm : arrays of the agents' state (padded: the first `scenario.agents` lanes count)
-    targets : array of target records
-    tally : sums so far
+    swarm : read-only arrays of the agents' state and make (padded: the first `scenario.agents` lanes count)
+    targets : read-only array of target records, (T,)
+    tally : read-only sums so far
+    minds : read-only records of what agents remember, in the words of their strategy
+    moment : all of the state, read-only; `edit` opens it for changes
     notes : what was assumed or dropped in reading recorded tracks
 
     Raises
@@ -59,22 +64,27 @@ class Simulation:
         self.crew = crew_of(scenario)
         self.memory_fields = self.crew.memory
         self.world = build_world(scenario)
-        self.swarm = build_swarm(scenario, self.crew)
-        self.radio = build_radio(scenario, self.crew, self.swarm.x.size)
+        self._swarm = build_swarm(scenario, self.crew)
+        self._radio = build_radio(scenario, self.crew, self._swarm.x.size)
         tracks = open_tracks(scenario)
         self.notes = [note for track in tracks for note in track.notes]
-        self.targets, self.tracks = build_targets(scenario, tracks)
-        self.minds = Minds(
-            memory=as_records(self.swarm.memory, self.memory_fields),
-            told=as_records(self.swarm.told, self.crew.told),
-            arrived=as_records(self.radio.told, self.crew.told),
+        self._targets, self.tracks = build_targets(scenario, tracks)
+        minds = Minds(
+            memory=as_records(self._swarm.memory, self.memory_fields),
+            told=as_records(self._swarm.told, self.crew.told),
+            arrived=as_records(self._radio.told, self.crew.told),
         )
-        self._records = Minds(*(np.asarray(part) for part in self.minds)) if compiles() else self.minds
+        plain = Minds(*(np.asarray(each) for each in minds))
+        self._minds = plain if compiles() else minds  # numba takes recarrays, too, but slowly
         batches = min(BATCHES, scenario.steps)
-        self.tally = new_tally(scenario.steps, batches, len(scenario.fleets), scenario.agents, len(scenario.targets))
-        self._scratch = new_scratch(self.world, self.swarm.x.size, self.crew.sums, self.crew.ranked)
+        self._tally = new_tally(scenario.steps, batches, len(scenario.fleets), scenario.agents, len(scenario.targets))
+        self._state = state_of(self._swarm, self._radio, self._targets, self._tally)
+        self.swarm, self.targets, self.minds = read_only(self._swarm), read_only(self._targets), read_only(minds)
+        self.moment: State = read_only(self._state)
+        self.tally = self.moment.tally
+        self._scratch = new_scratch(self.world, self._swarm.x.size, self.crew.sums, self.crew.ranked)
         self._begin, self._rollout = entry_points(self.crew)
-        self._identity_of_run = Run(np.uint64(scenario.seed), run, scenario.steps)
+        self._which = Run(np.uint64(scenario.seed), run, scenario.steps)
         self._phases = addresses()
         self._no_frames = self._new_frames(0)
         self._placed = Placed(self._stage(self._no_frames))
@@ -82,6 +92,7 @@ class Simulation:
         lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
         _set_out(self._placed.address, places, lifetimes, losses_of(scenario))
         self.begin()
+        self._settle()
 
     def __repr__(self) -> str:
         """One line: of what, and how far."""
@@ -91,7 +102,7 @@ class Simulation:
     def begin(self) -> None:
         """Set up every agent's memory, as its strategy does before the first step."""
         with strategy_errors(self.crew):
-            self._begin(self._in_place().address, self._records, self.crew.params)
+            self._begin(self._in_place().address, self._minds, self.crew.params)
 
     def advance(self, steps: int, *, every: int | None = None, tail: int | None = None) -> Trajectory | None:
         """Run so many steps; with `every`, return the frames of every so many-th step and of all from step `tail` on.
@@ -132,13 +143,23 @@ class Simulation:
             memory={name: swarm.memory[None, :n, m].copy() for m, name in enumerate(self.memory_fields)},
         )
 
+    @contextmanager
+    def edit(self) -> Iterator[State]:
+        """Open the state for changes by hand; when the block ends, who is on target is decided anew.
+
+        >>> with simulation.edit() as now:
+        ...     now.swarm.x[:2] = 0.0
+
+        Raises
+        ------
+        StrategyError : a number is not finite
+        """
+        yield self._state
+        self._settle()
+
     def state(self) -> dict[str, Any]:
-        """Everything that a resumed run needs, as arrays by name."""
-        parts = {f"swarm.{name}": part for name, part in self.swarm._asdict().items()}
-        parts |= {f"tally.{name}": part for name, part in self.tally._asdict().items()}
-        parts |= {f"radio.{name}": part for name, part in self.radio._asdict().items() if isinstance(part, np.ndarray)}
-        return parts | {
-            "targets": self.targets,
+        """Everything that a resumed run needs, as arrays by name; read-only."""
+        return dict(arrays_of(self.moment)) | {
             "number": np.array(self.number),
             "identity": np.array(self._identity()),
         }
@@ -165,19 +186,32 @@ class Simulation:
                     )
                 saved = dict(state)  # read whole before anything is overwritten
                 number = int(saved["number"])
-                mine = self.state()
-                for name in mine:
-                    if saved[name].shape != mine[name].shape:
+                mine = dict(arrays_of(self._state))
+                for name, array in mine.items():
+                    if saved[name].shape != array.shape:
                         raise ValueError(f"{name} has another shape")
-                for name in mine.keys() - {"number", "identity"}:
-                    mine[name][...] = saved[name]
+                for name, array in mine.items():
+                    array[...] = saved[name]
                 self.number = number
+                self._settle()
         except (OSError, ValueError, KeyError, EOFError, BadZipFile) as error:
             if isinstance(error, RecordError):
                 raise
             raise RecordError(
                 str(file), f"is no saved state: {error}", "name a file made by Simulation.save"
             ) from error
+
+    @property
+    def radio(self) -> Any:
+        """Settings of the radio, and what is on the air; read-only."""
+        return read_only(self._radio)
+
+    def _settle(self) -> None:
+        """Make the state true after a change; where everybody is always there, the engine leaves a lot out."""
+        if not self.world.mortal and (self._swarm.leaves < NEVER).any():
+            self.world = self.world._replace(mortal=True)
+            self._radio = self._radio._replace(limited=True)
+        self.advance(0)
 
     def _roll(self, placed: Placed, first: int, last: int, every: int, tail: int) -> None:
         """Run steps first..last on a stage.
@@ -187,7 +221,7 @@ class Simulation:
         StrategyError : a position, a velocity or a sum is not finite
         """
         with strategy_errors(self.crew):
-            spoiled = self._rollout(placed.address, self._records, self.crew.params, first, last, every, tail)
+            spoiled = self._rollout(placed.address, self._minds, self.crew.params, first, last, every, tail)
         self.number = last
         if spoiled:
             raise StrategyError(
@@ -209,19 +243,19 @@ class Simulation:
     def _stage(self, frames: Frames) -> Stage:
         return Stage(
             self.world,
-            self.swarm,
-            self.radio,
-            self.targets,
+            self._swarm,
+            self._radio,
+            self._targets,
             self.tracks,
-            self.tally,
+            self._tally,
             self._scratch,
             frames,
             self._phases,
-            self._identity_of_run,
+            self._which,
         )
 
     def _new_frames(self, count: int) -> Frames:
-        return new_frames(count, self.scenario.agents, self.targets.size, self.swarm.memory.shape[1])
+        return new_frames(count, self.scenario.agents, self._targets.size, self._swarm.memory.shape[1])
 
 
 def count_frames(first: int, last: int, every: int | None, tail: int) -> int:

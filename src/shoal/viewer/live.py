@@ -8,20 +8,20 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from shoal.core.errors import ScenarioError
-from shoal.metrics.summary import METRICS, phi_histogram
-from shoal.metrics.tally import Tally
+from shoal.metrics.summary import METRICS
 from shoal.record.trajectory import Trajectory
+from shoal.run.carry_over import carry_over
 from shoal.run.compiling import mark_compiled
 from shoal.run.facts import facts_of
+from shoal.run.live_edits import move_target, remove_agent
 from shoal.run.simulation import Simulation
-from shoal.run.transplant import move_target, remove_agent, transplant
 from shoal.scenario.edit import apply
 from shoal.scenario.load import scenario_from
 from shoal.scenario.schema import Scenario
 from shoal.strategies import CATALOGUE
 from shoal.strategies.contract import RESERVED
 from shoal.viewer.frame import RECENT, Gauges, pack
-from shoal.viewer.glance import glance
+from shoal.viewer.meter import Meter
 from shoal.viewer.scene import REPULSION, as_json, scene_of
 
 Table = dict[str, Any]
@@ -63,14 +63,14 @@ class LiveRun:
 
     def frame(self) -> bytes:
         """The bytes of the frame of now."""
-        shown, alone = glance(self.simulation)
+        shown = self.simulation.look()
         size = self.simulation.scenario.agents
         memory = shown.memory.get(REPULSION)
         return pack(
             run=self.place,
             epoch=self._epoch,
             step=self.simulation.number,
-            gauges=self._gauges(shown, alone),
+            gauges=self._gauges(shown),
             agents={
                 "x": shown.x[0],
                 "y": shown.y[0],
@@ -108,12 +108,12 @@ class LiveRun:
         StrategyError : the strategy cannot be compiled
         """
         table, scenario = self.scenario_with(changes)
-        self._become(table, transplant(self.simulation, scenario))
+        self._become(table, carry_over(self.simulation, scenario))
 
     def kill(self, agent: int) -> None:
         """Let an agent be gone; it keeps its number."""
         remove_agent(self.simulation, agent)
-        changed = transplant(self.simulation, self.simulation.scenario)  # for sums that begin now
+        changed = carry_over(self.simulation, self.simulation.scenario)  # for sums that begin now
         self._become(self._table, changed)
 
     def add(self, fleet: int, x: float, y: float) -> None:
@@ -136,8 +136,9 @@ class LiveRun:
         scenario = _scenario_of(table)
         newcomer = int(old.swarm.fleet_end[fleet])
         origin = np.insert(np.arange(old.scenario.agents), newcomer, -1)
-        new = transplant(old, scenario, origin)
-        new.swarm.x[newcomer], new.swarm.y[newcomer] = x, y
+        new = carry_over(old, scenario, origin)
+        with new.edit() as now:
+            now.swarm.x[newcomer], now.swarm.y[newcomer] = x, y
         self._become(table, new)
 
     def drag(self, target: int, x: float, y: float) -> None:
@@ -184,15 +185,16 @@ class LiveRun:
         present = self._before.present + float(tally.present.sum())
         return _Mark(self.simulation.number, present, self._before.on_target + float(tally.on_target.sum()))
 
-    def _gauges(self, shown: Trajectory, alone: Tally) -> Gauges:
-        tally, facts = self.simulation.tally, self._facts
+    def _gauges(self, shown: Trajectory) -> Gauges:
+        tally, facts, swarm = self.simulation.tally, self._facts, self.simulation.swarm
+        xi_now, phi = Meter(facts, shown).read(0)
         return Gauges(
             time_on_target=METRICS["time_on_target"].formula(tally, facts),
             recent=self._recent(),
             xi=METRICS["xi"].formula(tally, facts),
-            xi_now=METRICS["xi"].formula(alone, facts),
-            engaged=float(alone.engaged.sum()),
-            phi=phi_histogram(alone).sum(axis=0),
+            xi_now=xi_now,
+            engaged=float(swarm.engaged[: facts.agents].sum()),
+            phi=phi,
         )
 
     def _recent(self) -> float:

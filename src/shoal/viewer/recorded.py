@@ -5,20 +5,16 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from shoal.core.agents import Floats, new_swarm
-from shoal.metrics.heading_bearing import tally_heading_bearing
-from shoal.metrics.summary import METRICS, evaluate, phi_histogram
+from shoal.core.agents import Floats
+from shoal.metrics.summary import METRICS, evaluate
 from shoal.metrics.tally import new_tally
-from shoal.metrics.velocity_fluctuation import tally_velocity_fluctuation
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.strategies.plugins import find_strategy
 from shoal.viewer.frame import RECENT, Gauges, pack
+from shoal.viewer.meter import Meter
 from shoal.viewer.scene import REPULSION, scene_of
-from shoal.world.targets import TARGET
 
-_tally_velocity_fluctuation: Any = tally_velocity_fluctuation  # kernels have no types that mypy sees
-_tally_heading_bearing: Any = tally_heading_bearing
 _LABELS = {
     "time_on_target": "time on target",
     "xi": "velocity fluctuation Xi",
@@ -61,7 +57,7 @@ def recorded_frames(record: Record, run: int, chosen: npt.NDArray[np.int64]) -> 
     """The bytes of some of the frames that a record keeps of a run, given their indices."""
     scenario, size, kept = record.scenario, record.facts.agents, record.trajectories[run]
     course = _Course(record, run)
-    meter = _Meter(record, kept)
+    meter = Meter(record.facts, kept)
     repulsion = kept.memory.get(REPULSION)
     degree = _degrees(scenario, record.facts.counts)
     return [
@@ -86,7 +82,7 @@ def recorded_frames(record: Record, run: int, chosen: npt.NDArray[np.int64]) -> 
     ]
 
 
-def _gauges(course: "_Course", meter: "_Meter", kept: Trajectory, k: int) -> Gauges:
+def _gauges(course: "_Course", meter: Meter, kept: Trajectory, k: int) -> Gauges:
     step = int(kept.step[k])
     xi_now, phi = meter.read(k)
     return Gauges(
@@ -125,32 +121,6 @@ class _Course:
         """Over the steps before `last`."""
         sums: dict[str, Any] = {name: _until(last, self._batches, each)[None] for name, each in self._sums.items()}
         return METRICS["xi"].formula(self._none._replace(**sums), self._facts)
-
-
-class _Meter:
-    """Xi and phi of a kept frame, by the engine's own sums over that frame alone."""
-
-    def __init__(self, record: Record, kept: Trajectory) -> None:
-        self._facts, self._kept = record.facts, kept
-        self._swarm = new_swarm(list(record.facts.counts), ())
-        self._swarm.max_speed[: record.facts.agents] = np.repeat(record.facts.max_speeds, record.facts.counts)
-        self._targets = np.zeros(kept.target_x.shape[1], TARGET).view(np.recarray)
-        self._scratch = [np.zeros(self._swarm.x.size) for _ in range(3)]
-
-    def read(self, k: int) -> tuple[float, Floats]:
-        """Xi, and phi (11,), of frame k."""
-        kept, swarm, targets, agents = self._kept, self._swarm, self._targets, self._facts.agents
-        for name in ("x", "y", "vx", "vy", "alive"):
-            getattr(swarm, name)[:agents] = getattr(kept, name)[k]
-        swarm.command_x[:], swarm.command_y[:] = swarm.vx, swarm.vy
-        targets["x"], targets["y"], targets["present"] = kept.target_x[k], kept.target_y[k], kept.target_present[k]
-        tally = new_tally(1, 1, len(self._facts.fleets), agents, targets.size)
-        tally.steps[:] = 1
-        _tally_velocity_fluctuation(tally, 0, swarm, agents, int(swarm.alive[:agents].sum()), self._scratch[0])
-        if targets["present"].any():
-            tally.present[:] = 1
-            _tally_heading_bearing(tally, 0, swarm, agents, targets, *self._scratch)
-        return METRICS["xi"].formula(tally, self._facts), phi_histogram(tally).sum(axis=0)
 
 
 def _degrees(scenario: dict[str, Any], counts: tuple[int, ...]) -> npt.NDArray[np.int64]:

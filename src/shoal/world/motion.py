@@ -1,4 +1,4 @@
-"""The one place where positions change: speed limit, step, walls."""
+"""The one place where positions change: speed limit, step, walls; each a function of numbers, and a loop."""
 
 import math
 
@@ -6,16 +6,56 @@ from shoal.compiler.kernel import kernel
 
 
 @kernel
-def limit_speed(command_x, command_y, max_speed, divide):
-    """Scale velocities above an agent's top speed down to it, in place.
+def limited(vx, vy, max_speed, divide):
+    """Scale a velocity above the top speed down to it [m/s].
 
     With `divide`, do what Algorithm 2 of the paper prints instead: v <- v / vmax for every agent, which never limits a
     1 m/s buoy and slows the others.
     """
+    scale = speed_scale(vx, vy, max_speed, divide)
+    return vx * scale, vy * scale
+
+
+@kernel
+def maneuvered(vx, vy, wanted_x, wanted_y, turn, change):
+    """Limit how far a wanted velocity turns from the present one, then how much it changes.
+
+    vx, vy, wanted_x, wanted_y [m/s]; turn : the most in a step [rad]; change : the most in a step [m/s]
+    """
+    angle = math.atan2(vx * wanted_y - vy * wanted_x, vx * wanted_x + vy * wanted_y)
+    if abs(angle) > turn and vx * vx + vy * vy > 0.0:
+        heading = math.atan2(vy, vx) + (turn if angle > 0.0 else -turn)
+        speed = math.sqrt(wanted_x * wanted_x + wanted_y * wanted_y)
+        wanted_x = speed * math.cos(heading)
+        wanted_y = speed * math.sin(heading)
+    change_x = wanted_x - vx
+    change_y = wanted_y - vy
+    size = math.sqrt(change_x * change_x + change_y * change_y)
+    too_much = size > change
+    return (
+        vx + change / size * change_x if too_much else wanted_x,
+        vy + change / size * change_y if too_much else wanted_y,
+    )
+
+
+@kernel
+def moved(place, command, clamp, time_step):
+    """Advance along one axis by a time-step and stop at the wall: place [m] and velocity [m/s] after it.
+
+    At the wall the velocity becomes the displacement really made. An agent that starts outside the wall is put inside,
+    which is no motion of its own: it counts from the wall on.
+    """
+    free = place + command * time_step
+    there = min(max(free, -clamp), clamp)
+    inside = min(max(place, -clamp), clamp)
+    return there, command if there == free else (there - inside) / time_step
+
+
+@kernel
+def limit_speed(command_x, command_y, max_speed, divide):
+    """Limit the velocities (B,) of a block of agents, in place."""
     for i in range(command_x.size):
-        scale = speed_scale(command_x[i], command_y[i], max_speed[i], divide)
-        command_x[i] *= scale
-        command_y[i] *= scale
+        command_x[i], command_y[i] = limited(command_x[i], command_y[i], max_speed[i], divide)
 
 
 @kernel
@@ -27,7 +67,7 @@ def speed_scale(vx, vy, max_speed, divide):
 
 @kernel
 def limit_maneuver(swarm, first, last, time_step):
-    """Limit how far the wanted velocity of agents first..last turns in a step, then how much it changes, in place."""
+    """Limit the maneuvers of agents first..last, in place."""
     for i in range(first, last):
         turn, change = swarm.max_turn_rate[i] * time_step, swarm.max_acceleration[i] * time_step
         swarm.command_x[i], swarm.command_y[i] = maneuvered(
@@ -36,32 +76,7 @@ def limit_maneuver(swarm, first, last, time_step):
 
 
 @kernel
-def maneuvered(vx, vy, wanted_x, wanted_y, most_turn, most_change):
-    """The velocity wanted, turned from the present one by `most_turn` [rad] at most, changed by `most_change` [m/s]."""
-    angle = math.atan2(vx * wanted_y - vy * wanted_x, vx * wanted_x + vy * wanted_y)
-    if abs(angle) > most_turn and vx * vx + vy * vy > 0.0:
-        heading = math.atan2(vy, vx) + (most_turn if angle > 0.0 else -most_turn)
-        speed = math.sqrt(wanted_x * wanted_x + wanted_y * wanted_y)
-        wanted_x = speed * math.cos(heading)
-        wanted_y = speed * math.sin(heading)
-    change_x = wanted_x - vx
-    change_y = wanted_y - vy
-    change = math.sqrt(change_x * change_x + change_y * change_y)
-    if change > most_change:
-        return vx + most_change / change * change_x, vy + most_change / change * change_y
-    return wanted_x, wanted_y
-
-
-@kernel
 def move(position, velocity, command, clamp, time_step):
-    """Advance one axis by a time-step and stop at the wall, where the velocity becomes the displacement really made.
-
-    An agent that starts outside the wall is put inside, which is no motion of its own: it counts from the wall on.
-    """
+    """Move a block of agents (B,) along one axis, in place."""
     for i in range(position.size):
-        here = position[i]
-        free = here + command[i] * time_step
-        there = min(max(free, -clamp), clamp)
-        inside = min(max(here, -clamp), clamp)
-        velocity[i] = command[i] if there == free else (there - inside) / time_step
-        position[i] = there
+        position[i], velocity[i] = moved(position[i], command[i], clamp, time_step)

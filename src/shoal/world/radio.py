@@ -1,20 +1,20 @@
 """What the radio does to messages: range, loss, delay, and how many neighbors an agent listens to."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from shoal.compiler.kernel import kernel
-from shoal.core.agents import Floats, width
+from shoal.core.agents import Floats, both, width
 from shoal.core.draws import split, uniform
 from shoal.world.neighbors import linked
 
 _LOSS = 1 << 33  # a stream of keys that neither agents nor targets draw from
 
 
-class Radio(NamedTuple):
-    """Settings of the network, and what was said in the last steps (D rows of L lanes, step s in row s % D).
+class Network(NamedTuple):
+    """What is chosen of the radio.
 
     limited : whether any pair may be out of touch; range_square [m^2]
     delay : steps that a report takes; loss : chance that a linked pair misses a step's report
@@ -29,12 +29,20 @@ class Radio(NamedTuple):
     fewest: npt.NDArray[np.int64]
     most: npt.NDArray[np.int64]
     patience: float
+
+
+class Air(NamedTuple):
+    """What is on the air: what was said in the last steps, D rows of L lanes, step s in row s % D."""
+
     x: Floats
     y: Floats
     vx: Floats
     vy: Floats
     on_target: npt.NDArray[np.bool_]
     told: Floats
+
+
+Radio = both("Radio", Air, Network, __name__)
 
 
 class Said(NamedTuple):
@@ -56,7 +64,7 @@ def new_radio(
     delay: int,
     loss: float,
     degree: tuple[int, int, float] | None,
-) -> Radio:
+) -> Any:
     """Return a radio that has heard nothing yet; `degree` is fewest, most and patience of an adaptive one."""
     rows = delay + 1
     fewest, most, patience = degree or (0, 0, 0.0)
@@ -103,6 +111,12 @@ def said(radio, swarm, number):
         return Said(swarm.x, swarm.y, swarm.vx, swarm.vy, swarm.on_target)
     old = (number + 1) % (radio.delay + 1)
     return Said(radio.x[old], radio.y[old], radio.vx[old], radio.vy[old], radio.on_target[old])
+
+
+@kernel
+def adapted(contact, on_contact, weight):
+    """The share of recent steps in contact, one step later; a step weighs `weight`."""
+    return contact + weight * (on_contact - contact)
 
 
 @kernel
@@ -174,5 +188,5 @@ def adapt_degree(swarm, radio, links, reports, first, last, world):
     weight = min(1.0, world.time_step / radio.patience)
     for i in range(first, last):
         if swarm.alive[i] > 0.0:
-            swarm.contact[i] += weight * (contact[i - first] - swarm.contact[i])
+            swarm.contact[i] = adapted(swarm.contact[i], contact[i - first], weight)
             swarm.neighbors[i] = degree_of(swarm.contact[i], radio.fewest[i], radio.most[i])

@@ -11,6 +11,7 @@ from shoal.world.targets.moves import any_heading
 from shoal.world.targets.record import DRIFT, EVASIVE, LEVY, LINE, TRACK, WALK, WAYPOINT
 from shoal.world.targets.record import KINDS as KINDS
 from shoal.world.targets.record import TARGET as TARGET
+from shoal.world.targets.record import TARGET_STATE as TARGET_STATE
 from shoal.world.targets.record import Tracks as Tracks
 from shoal.world.targets.track import follow_track
 from shoal.world.targets.walk import walk

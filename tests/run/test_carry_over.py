@@ -5,8 +5,9 @@ import pytest
 
 from scenarios import fleets, scenario, small
 from shoal.core.errors import ScenarioError
+from shoal.run.carry_over import carry_over
+from shoal.run.live_edits import move_target, remove_agent
 from shoal.run.simulation import Simulation
-from shoal.run.transplant import move_target, remove_agent, transplant
 
 BODY = ("x", "y", "vx", "vy", "memory", "neighbors", "contact", "leaves", "joins", "alive", "on_target")
 
@@ -46,7 +47,7 @@ class TestTheSameScenario:
     )
     def test_goes_on_the_same(self, changes):
         undisturbed = running(changes)
-        moved = transplant(running(changes), undisturbed.scenario)
+        moved = carry_over(running(changes), undisturbed.scenario)
         undisturbed.advance(60)
         moved.advance(60)
         assert moved.number == undisturbed.number == 120
@@ -54,7 +55,7 @@ class TestTheSameScenario:
         assert moved.targets.tobytes() == undisturbed.targets.tobytes()
 
     def test_sums_begin_anew(self):
-        moved = transplant(running(), scenario())
+        moved = carry_over(running(), scenario())
         assert moved.tally.steps.sum() == 0
         moved.advance(5)
         assert moved.tally.steps.sum() == 5
@@ -62,20 +63,20 @@ class TestTheSameScenario:
     def test_the_old_run_stays_as_it_was(self):
         old = running()
         before = agents_of(old)
-        transplant(old, scenario()).advance(50)
+        carry_over(old, scenario()).advance(50)
         assert same(agents_of(old), before)
 
 
 class TestAChange:
     def test_k_changes_and_nothing_else(self):
         old = running()
-        new = transplant(old, scenario(changes={"network.neighbors": 5}))
+        new = carry_over(old, scenario(changes={"network.neighbors": 5}))
         assert set(new.swarm.neighbors[:50]) == {5}
         kept = [name for name in BODY if name != "neighbors"]
         assert same(agents_of(new, kept), agents_of(old, kept))
 
     def test_it_matters_from_the_next_step_on(self):
-        new = transplant(running(), scenario(changes={"network.neighbors": 5}))
+        new = carry_over(running(), scenario(changes={"network.neighbors": 5}))
         old = running()
         assert same(agents_of(new, ("x", "y")), agents_of(old, ("x", "y")))
         new.advance(1)
@@ -84,37 +85,37 @@ class TestAChange:
 
     def test_a_target_keeps_its_way_and_takes_the_new_speed(self):
         old = running()
-        new = transplant(old, scenario(changes={"targets.0.speed": 7.0}))
+        new = carry_over(old, scenario(changes={"targets.0.speed": 7.0}))
         for name in ("x", "y", "heading_x", "heading_y", "waypoint_x", "waypoint_y", "waypoint_age"):
             assert new.targets[0][name] == old.targets[0][name]
         assert new.targets[0]["speed"] == 7.0
 
     def test_a_target_of_another_kind_begins_where_that_kind_begins(self):
         still = {"targets": [{"kind": "still", "radius": 1.0, "x": 4.0}]}
-        assert transplant(running(), scenario(changes=still)).targets[0]["x"] == 4.0
+        assert carry_over(running(), scenario(changes=still)).targets[0]["x"] == 4.0
 
     def test_faster_agents_are_those_of_the_lowest_numbers(self):
         old = running()
-        new = transplant(old, scenario(changes={"fleets.0.count": 20, "fleets.1.count": 30}))
+        new = carry_over(old, scenario(changes={"fleets.0.count": 20, "fleets.1.count": 30}))
         assert list(new.swarm.max_speed[:50]) == [2.6] * 20 + [1.0] * 30
         assert same(agents_of(new, ("x", "y", "vx", "vy")), agents_of(old, ("x", "y", "vx", "vy")))
 
     def test_another_strategy_begins_with_its_own_memory(self):
         old = running()
-        new = transplant(old, scenario(changes={"strategy": {"name": "memory-pso"}}))
+        new = carry_over(old, scenario(changes={"strategy": {"name": "memory-pso"}}))
         afresh = Simulation(new.scenario)
         assert new.swarm.memory[:50].tobytes() == afresh.swarm.memory[:50].tobytes()
 
     def test_other_parameters_keep_the_memory(self):
         old = running()
-        new = transplant(old, scenario(changes={"strategy.delta": 0.05}))
+        new = carry_over(old, scenario(changes={"strategy.delta": 0.05}))
         assert new.swarm.memory[:50].tobytes() == old.swarm.memory[:50].tobytes()
         assert len(np.unique(old.swarm.memory[:50])) > 1
 
     def test_fleets_with_strategies_of_their_own_are_told_apart(self):
         mixed = {"fleets.0.strategy": {"name": "random-walk"}}
         old = running()
-        new = transplant(old, scenario(changes=mixed))
+        new = carry_over(old, scenario(changes=mixed))
         column = new.memory_fields.index("repulsion")
         assert np.array_equal(new.swarm.memory[15:50, column], old.swarm.memory[15:50, 0])
         assert (new.swarm.memory[:15, column] == 0).all()
@@ -122,7 +123,7 @@ class TestAChange:
     @pytest.mark.parametrize("delay", [0, 2, 7])
     def test_with_another_delay_what_is_on_the_air_is_what_is_said_now(self, delay):
         old = running({"network.delay": 4})
-        new = transplant(old, scenario(changes={"network.delay": delay}))
+        new = carry_over(old, scenario(changes={"network.delay": delay}))
         assert (new.radio.x[:, :50] == old.swarm.x[:50]).all()
 
     def test_the_same_at_the_same_step_is_the_same_however_it_came_there(self):
@@ -131,7 +132,7 @@ class TestAChange:
             simulation = Simulation(scenario())
             for chunk in chunks:
                 simulation.advance(chunk)
-            changed = transplant(simulation, scenario(changes={"network.neighbors": 7, "targets.0.speed": 5.0}))
+            changed = carry_over(simulation, scenario(changes={"network.neighbors": 7, "targets.0.speed": 5.0}))
             changed.advance(40)
             results.append(agents_of(changed))
         assert same(results[0], results[1])
@@ -141,12 +142,12 @@ class TestAChange:
 class TestOrigin:
     def test_agents_take_their_state_with_them(self):
         old = running()
-        new = transplant(old, scenario(changes={"fleets.0.count": 16}), np.insert(np.arange(50), 15, -1))
+        new = carry_over(old, scenario(changes={"fleets.0.count": 16}), np.insert(np.arange(50), 15, -1))
         assert np.array_equal(np.delete(new.swarm.x[:51], 15), old.swarm.x[:50])
         assert np.array_equal(np.delete(new.swarm.memory[:51], 15, 0), old.swarm.memory[:50])
 
     def test_a_new_one_is_there_from_now_on(self):
-        new = transplant(running(), scenario(changes={"fleets.0.count": 16}), np.insert(np.arange(50), 15, -1))
+        new = carry_over(running(), scenario(changes={"fleets.0.count": 16}), np.insert(np.arange(50), 15, -1))
         frame = new.advance(1, every=1)
         assert new.swarm.joins[15] == 60
         assert frame.alive.all()
@@ -154,13 +155,13 @@ class TestOrigin:
     def test_its_lifetime_begins_now(self):
         lives = {"fleets.0.mean_lifetime": 1e6}
         old = running(lives, steps=1000)
-        new = transplant(old, scenario(changes={**lives, "fleets.0.count": 16}), np.insert(np.arange(50), 15, -1))
+        new = carry_over(old, scenario(changes={**lives, "fleets.0.count": 16}), np.insert(np.arange(50), 15, -1))
         assert new.swarm.leaves[15] > 1000
 
     def test_by_default_agents_keep_their_numbers_and_others_are_new(self):
         old = Simulation(small(10, 3))
         old.advance(30)
-        new = transplant(old, small(12, 3))
+        new = carry_over(old, small(12, 3))
         assert np.array_equal(new.swarm.x[:10], old.swarm.x[:10])
         assert list(new.swarm.joins[:12]) == [0] * 10 + [30] * 2
 
@@ -202,7 +203,7 @@ class TestRemoveAgent:
     def test_it_stays_gone_through_later_changes(self):
         simulation = running()
         remove_agent(simulation, 7)
-        changed = transplant(simulation, scenario(changes={"network.neighbors": 5}))
+        changed = carry_over(simulation, scenario(changes={"network.neighbors": 5}))
         assert not changed.advance(10, every=1).alive[:, 7].any()
 
     def test_two_stay(self):
@@ -265,5 +266,5 @@ def test_a_team_of_two_makes_is_one_case_of_many():
     """Fleets of any number and size are carried over agent by agent."""
     old = Simulation(scenario(changes={"fleets": fleets((3, 1.0), (4, 2.0), (5, 3.0)), "network.neighbors": 4}))
     old.advance(25)
-    new = transplant(old, scenario(changes={"fleets": fleets((6, 1.0), (6, 3.0)), "network.neighbors": 4}))
+    new = carry_over(old, scenario(changes={"fleets": fleets((6, 1.0), (6, 3.0)), "network.neighbors": 4}))
     assert np.array_equal(new.swarm.x[:12], old.swarm.x[:12])
