@@ -13,6 +13,8 @@ from shoal.core.errors import RecordError
 from shoal.experiments.results import aggregate, read_rows
 from shoal.metrics.summary import METRICS
 from shoal.record.files import open_record, save_record
+from shoal.run.simulate import simulate
+from shoal.scenario.load import load
 from shoal.version import RESULTS_VERSION
 
 DATA = Path(__file__).parent / "data"
@@ -38,6 +40,17 @@ def shoal(capsys, *tokens):
 
 def test_every_version_is_kept():
     assert list(range(1, RESULTS_VERSION + 1)) == VERSIONS, "run tests/data/make_results.py, see README.md there"
+
+
+def test_a_change_that_moves_a_number_says_so():
+    """By another RESULTS_VERSION, a line in the changelog, and records of it beside these; see tests/data/README.md."""
+    kept = open_record(DATA / f"results-v{RESULTS_VERSION}" / "record")
+    today = simulate(load(str(DATA / "tiny.toml")), runs=2)
+    for before, now in zip(kept.tallies, today.tallies, strict=True):
+        for name in before._fields:
+            np.testing.assert_allclose(getattr(now, name), getattr(before, name), rtol=1e-9, atol=1e-9, err_msg=name)
+    for name, values in kept.trajectories[0].arrays().items():
+        np.testing.assert_allclose(today.trajectories[0].arrays()[name], values, rtol=1e-9, atol=1e-9, err_msg=name)
 
 
 @pytest.mark.parametrize("name", ["record", "every"])

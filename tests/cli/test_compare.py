@@ -8,8 +8,6 @@ import pytest
 
 from commands import shoal
 
-pytest.importorskip("scipy.stats", reason="scipy is not installed")
-
 SHORT = ("--steps", 200, "--runs", 3)
 MINE = """
 from typing import NamedTuple

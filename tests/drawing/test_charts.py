@@ -55,9 +55,10 @@ class TestBatches:
         assert mean.get_xydata().tolist() == [[0.0, pytest.approx(0.4)], [40.0, pytest.approx(0.4)]]
 
     def test_its_band_stays_within_what_a_share_can_be(self, axes, make_record):
-        draw_batches(axes, make_record(runs=2, on_target=(0.2, 0.6)))  # the interval is [-2.1, 2.9]
+        draw_batches(axes, make_record(runs=2, on_target=(0.2, 0.6)))  # Student's t alone gives [-2.1, 2.9]
         band = axes.collections[0].get_paths()[0].get_extents()
-        assert (band.y0, band.y1) == pytest.approx((0.0, 1.0))
+        assert 0.0 <= band.y0 < 0.001
+        assert 0.999 < band.y1 <= 1.0
 
     def test_batches_without_a_target_are_shaded(self, axes, make_record, marks):
         record = make_record(runs=1)

@@ -80,7 +80,7 @@ class TestWords:
 
     def test_metrics_have_intervals(self, make_record):
         page = texts(summary_figure(make_record(runs=30)))
-        assert "time on target 0.400 [0.324, 0.476]" in page
+        assert "time on target 0.400 [0.327, 0.478]" in page
         assert "95 % interval over 30 runs" in page
 
     def test_where_it_comes_from(self, make_record):

@@ -9,13 +9,11 @@ import pytest
 from shoal.core.errors import RecordError, ScenarioError
 from shoal.experiments.contenders import contenders
 from shoal.experiments.leaderboard import make_leaderboard, suite_hash
-from shoal.experiments.leaderboard_page import BEGIN, END, page_part, standing_still, write_page
+from shoal.experiments.leaderboard_page import BEGIN, END, _as_markdown, page_part, standing_still, write_page
 from shoal.experiments.suite import read_suite, resized, suites
 from shoal.metrics.summary import METRICS
 from shoal.strategies import CATALOGUE
 from shoal.version import RESULTS_VERSION
-
-pytest.importorskip("scipy.stats", reason="scipy is not installed")
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "arena.md"
 EVERYBODY = contenders(sorted(CATALOGUE))
@@ -180,3 +178,8 @@ class TestPageOfTheDocs:
         for section in sections:
             rows = re.findall(r"^\| [\d–]+ \| ([\w-]+)(?: \(knows the target\))? \|", section, re.MULTILINE)
             assert sorted(rows) == sorted(CATALOGUE)
+
+
+def test_a_name_is_text_in_the_page():
+    assert _as_markdown("a|b <i> *c* _d_ [e](f) `g` $h$") == r"a\|b \<i\> \*c\* \_d\_ \[e\](f) \`g\` \$h\$"
+    assert _as_markdown("knn-pso") == "knn-pso"

@@ -5,7 +5,7 @@ import pytest
 
 from coasting import coasting
 from scenarios import scenario, small
-from shoal.metrics.coverage import CELLS, WINDOW
+from shoal.metrics.coverage import CELLS, WINDOW, reachable
 from shoal.metrics.summary import evaluate
 from shoal.run.facts import facts_of
 from shoal.run.simulation import Simulation
@@ -101,3 +101,20 @@ class TestAbsent:
         simulation = coasting([(0, 0), (5, 5)], np.zeros((2, 2)), steps=WINDOW - 1)
         simulation.advance(WINDOW - 1)
         assert np.isnan(metrics_of(simulation)[0])
+
+
+class TestReachable:
+    """The share of cells that agents can be in."""
+
+    def test_without_a_margin_is_all(self):
+        assert reachable(20.0, 30.0, 0.0) == 1.0
+
+    def test_of_the_paper_is_28_of_32_along_each_side(self):
+        assert reachable(20.0, 20.0, 1.5) == (28 / 32) ** 2
+
+    def test_is_what_a_long_run_covers_at_most(self):
+        simulation = Simulation(scenario("oceans2020", {"steps": 4 * WINDOW, "seed": 3}))
+        simulation.advance(4 * WINDOW)
+        covered = simulation.tally.covered[simulation.tally.windows > 0]
+        assert covered.max() <= (28 / 32) ** 2
+        assert covered.max() > 0.99 * (28 / 32) ** 2

@@ -6,6 +6,8 @@ import pytest
 from shoal.metrics.summary import (
     METRICS,
     Facts,
+    batch_values,
+    bounds_of,
     evaluate,
     fleet_fluctuation,
     fleet_stationary,
@@ -33,6 +35,45 @@ def tally():
     return tally
 
 
+class TestBatchValues:
+    """Values in batches, so weighted that their spread is that of the whole run's value."""
+
+    def values(self, tally, name):
+        return batch_values(lambda sums: METRICS[name].formula(sums, FACTS), tally)
+
+    def test_of_batches_of_one_length_are_their_own_values(self, tally):
+        assert self.values(tally, "xi_raw") == pytest.approx(evaluate("xi_raw", tally, FACTS)[1])
+
+    def test_of_a_ratio_are_those_of_the_jackknife(self, tally):
+        """Twice the whole less the other batch's."""
+        assert self.values(tally, "time_on_target") == pytest.approx([2 * 90 / 160 - 1 / 6, 2 * 90 / 160 - 0.8])
+
+    def test_a_batch_that_says_nothing_of_it_has_none(self, tally):
+        tally.graphs[1], tally.components[1] = 4, 8
+        assert self.values(tally, "components").tolist() == [2.0]
+        assert self.values(tally, "clustering").tolist() == [0.0]
+        assert self.values(tally, "coverage").size == 0
+
+
+class TestBounds:
+    """What no run can leave."""
+
+    def test_every_metric_has_some_and_they_are_in_order(self):
+        assert all(bounds_of(name).low >= 0.0 and bounds_of(name).low < bounds_of(name).high for name in METRICS)
+
+    @pytest.mark.parametrize("name", ["time_on_target", "stationary", "target_present", "fairness", "clustering"])
+    def test_a_share_is_at_most_one(self, name):
+        assert bounds_of(name) == (0.0, 1.0)
+
+    def test_of_the_swarm_are_its_size_and_where_it_may_go(self):
+        assert bounds_of("engaged", agents=40) == (0.0, 40)
+        assert bounds_of("coverage", reach=0.75) == (0.0, 0.75)
+        assert bounds_of("coverage") == (0.0, 1.0)
+
+    def test_of_times_are_the_length_of_the_run(self):
+        assert bounds_of("first_detection", duration=200.0) == bounds_of("reacquisition", duration=200.0) == (0.0, 200)
+
+
 class TestFormulas:
     """Over all steps, and over each batch of them."""
 
@@ -41,7 +82,6 @@ class TestFormulas:
         [
             ("time_on_target", 90 / 160, (0.8, 1 / 6)),
             ("engaged", 200 / 160, (1.6, 2 / 3)),
-            ("target_present", 0.8, (1.0, 0.6)),
             ("xi_raw", 2000 / 200 / 40, (15 / 40, 5 / 40)),
             ("xi", 2000 / 200 / 40 / 1.25, (15 / 50, 5 / 50)),
             ("response", 10 * 0.5 / 2, (15 / 4, 5 / 4)),
@@ -52,6 +92,11 @@ class TestFormulas:
         whole, parts = evaluate(name, tally, FACTS)
         assert whole == pytest.approx(mean)
         assert parts == pytest.approx(batches)
+
+    def test_what_the_scenario_decides_has_no_batches(self, tally):
+        whole, parts = evaluate("target_present", tally, FACTS)
+        assert whole == pytest.approx(0.8)
+        assert parts.size == 0
 
     def test_every_metric_has_a_unit_and_a_sentence(self):
         assert all(metric.unit and metric.sentence for metric in METRICS.values())

@@ -21,6 +21,12 @@ def one_run():
     return simulate(scenario("oceans2020", {"steps": 600}))
 
 
+@pytest.fixture(scope="module")
+def pair():
+    """Two short runs: Student's t of one degree of freedom leaves every bound."""
+    return simulate(scenario("oceans2020", {"steps": 300}), runs=2)
+
+
 class TestEstimates:
     """Over runs where there are several, over batches of one."""
 
@@ -28,7 +34,9 @@ class TestEstimates:
     def test_of_several_runs(self, record, metric):
         result = record.estimate(metric)
         assert len(result.runs) == 4
-        assert repr(result) == repr(estimate(result.runs))  # a number that does not exist is no equal of itself
+        assert repr(result) == repr(
+            estimate(result.runs, bounds=record.bounds(metric))
+        )  # a number that does not exist is no equal of itself
 
     def test_of_one_run_have_an_interval_too(self, one_run):
         low, high = one_run.estimate("xi").ci95
@@ -36,6 +44,24 @@ class TestEstimates:
 
     def test_of_one_run_have_none_for_what_happens_once(self, one_run):
         assert one_run.estimate("first_detection").ci95 is None
+
+    @pytest.mark.parametrize("metric", METRICS)
+    def test_stay_inside_what_is_possible(self, record, one_run, pair, metric):
+        for each in (record, one_run, pair):
+            low, high = each.estimate(metric).ci95 or (each.bounds(metric))
+            assert each.bounds(metric).low <= low <= high <= each.bounds(metric).high
+
+    def test_no_loss_is_longer_than_the_run_nor_more_frequent_than_every_other_step(self, pair):
+        assert pair.bounds("first_detection") == pair.bounds("reacquisition") == (0.0, 30.0)
+        assert pair.bounds("losses") == (0.0, 18_000.0)
+
+    def test_a_run_is_too_short_for_what_it_has_few_windows_of(self, one_run):
+        assert "coverage_rate" in one_run.too_short()
+        assert "time_on_target" not in one_run.too_short()
+        assert "messages" not in one_run.too_short()  # never changes
+
+    def test_several_runs_are_never_too_short(self, record):
+        assert record.too_short() == []
 
     def test_of_no_such_metric(self, record):
         with pytest.raises(KeyError):

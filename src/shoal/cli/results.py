@@ -129,5 +129,7 @@ def _print_groups(groups: list[dict[str, Any]], by: list[str]) -> None:
 
 
 def _with_interval(group: dict[str, Any], name: str) -> str:
+    from shoal.record.words import spread_text
+
     low, high = group[f"{name}_low"], group[f"{name}_high"]
-    return f"{group[name]:.4f}" if low is None else f"{group[name]:.4f} ±{(high - low) / 2:.4f}"
+    return f"{group[name]:.4f}{spread_text(group[name], low, high, 4)}"

@@ -1,5 +1,6 @@
 """A record as a table that fits a terminal."""
 
+import textwrap
 from collections.abc import Mapping
 from typing import Any
 
@@ -54,6 +55,10 @@ def print_record(record: Record) -> None:
     console.print(table)
     console.print("phi histogram, agents per step from -1 (away) to +1 (toward):")
     console.print("  " + " ".join(f"{agents:.2f}" for agents in record.phi_histogram().sum(axis=0)))
+    short = ", ".join(_label(name) for name in record.too_short())
+    if short:
+        told = textwrap.fill(f"too short for an interval of {short}: more steps or more runs tell it", 78)
+        console.print(styled(told, "dim"))
     method = "over runs" if runs > 1 else "by batch means"
     console.print(styled(f"intervals {method}; {record.provenance['seconds']:g} s", "dim"))
 

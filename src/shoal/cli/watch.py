@@ -10,7 +10,7 @@ from cyclopts import Parameter
 from shoal.cli.older import opened
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
-from shoal.cli.startup import load_compiler
+from shoal.cli.startup import load_compiler, tell_of_compiling
 from shoal.cli.whole import MaybeSteps, MaybeWhole, Number, Whole
 
 if TYPE_CHECKING:
@@ -117,15 +117,14 @@ def _watch(
     out: Path | None,
 ) -> None:
     from shoal.record.files import RecordFolder
-    from shoal.run.compiling import needs_compiling
     from shoal.scenario.load import scenario_from
     from shoal.viewer.server import live_app, serving
     from shoal.viewer.session import Session
     from shoal.viewer.worker import Worker
 
     scenarios = [scenario_from(table, where=name) for table, name in zip(tables, names, strict=False)]
-    if any(needs_compiling(each) for each in scenarios):
-        note("compiling the engine (up to half a minute; once per strategy and version of Shoal)")
+    for scenario in {each.strategy.name: each for each in scenarios}.values():
+        tell_of_compiling(scenario)
     if out:
         with RecordFolder(out):  # refused now, not after the run
             pass

@@ -92,3 +92,10 @@ def _initials(name: str) -> str:
 
 def _all(names: list[str]) -> str:
     return f"there are: {', '.join(names)}"
+
+
+def reason_of(error: Exception) -> str:
+    """What an error of Python or of a library says, in a line; a missing key is named as such."""
+    if isinstance(error, KeyError):
+        return f"it has no {error}"
+    return " ".join(str(error).split())[:300] or type(error).__name__

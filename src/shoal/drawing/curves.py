@@ -66,7 +66,7 @@ def draw_curve(
 def draw_batches(axes: "Axes", record: Record) -> None:
     """Draw time on target in consecutive batches of each run, the mean over all steps and its 95 % interval.
 
-    Batches without a target are shaded. The band stops at 0 and 1, between which any share lies.
+    Batches without a target are shaded.
     """
     edges = np.concatenate([[0.0], np.cumsum(record.tallies[0].steps)])
     runs = np.array([evaluate("time_on_target", tally, record.facts)[1] for tally in record.tallies])  # (R, B)
@@ -78,7 +78,7 @@ def draw_batches(axes: "Axes", record: Record) -> None:
         return
     _draw_runs(axes, (edges[:-1] + edges[1:]) / 2, runs)
     total = record.estimate("time_on_target")
-    low, high = np.clip(total.ci95 or (np.nan, np.nan), 0.0, 1.0)
+    low, high = total.ci95 or (np.nan, np.nan)
     ends, ones = edges[[0, -1]], np.ones(2)
     draw_band(axes, ends, total.mean * ones, low * ones, high * ones, f"mean {estimate_text(total)}", TARGET)
     top = max(float(np.nanmax(runs)), float(np.nan_to_num(high)), 0.1)

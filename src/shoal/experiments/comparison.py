@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.experiments.paired import SIGNIFICANT, Difference, holm, paired_difference
+from shoal.metrics.summary import ANYTHING, Bounds
 from shoal.record.statistics import Estimate, estimate
 
 Values = Mapping[str, npt.NDArray[np.float64]]  # of each strategy in each run, (R,); NaN where a run has none
@@ -75,7 +76,11 @@ def direction_of(metric: str) -> int:
 
 
 def compare(
-    table: Mapping[str, tuple[dict[str, Any], Values]], baseline: str, informed: Container[str], direction: int = 1
+    table: Mapping[str, tuple[dict[str, Any], Values]],
+    baseline: str,
+    informed: Container[str],
+    direction: int = 1,
+    bounds: Bounds = ANYTHING,
 ) -> Comparison:
     """Return all standings and their differences from the baseline.
 
@@ -85,9 +90,10 @@ def compare(
     baseline : the strategy that all others are compared with
     informed : names of those that know the target
     direction : 1 more is better, -1 less is better, 0 neither (ranked as if more were)
+    bounds : of the values
     """
     differences = {
-        (name, strategy): paired_difference(values[strategy], values[baseline])
+        (name, strategy): paired_difference(values[strategy], values[baseline], bounds)
         for name, (_, values) in table.items()
         for strategy in values
         if strategy != baseline
@@ -108,6 +114,7 @@ def compare(
                             differences.get((name, strategy)),
                             adjusted.get((name, strategy)),
                             direction,
+                            bounds,
                         )
                         for strategy in values
                     ],
@@ -126,9 +133,10 @@ def _standing(
     difference: Difference | None,
     adjusted_p: float | None,
     direction: int,
+    bounds: Bounds,
 ) -> Standing:
     known = values[np.isfinite(values)]
-    value = estimate(known) if known.size else Estimate(math.nan, None, ())
+    value = estimate(known, bounds=bounds) if known.size else Estimate(math.nan, None, ())
     verdict = _verdict(difference, adjusted_p, direction)
     return Standing(strategy, informed, None, value, values.size - known.size, difference, adjusted_p, verdict)
 

@@ -4,6 +4,7 @@ import math
 
 from shoal.experiments.comparison import Standing
 from shoal.experiments.paired import SIGNIFICANT
+from shoal.record.words import spread_text
 
 REFERENCES = (
     "References that know the target have no rank: no buoy could follow them. They are no upper bound; no proven one "
@@ -22,12 +23,12 @@ def name_text(each: Standing) -> str:
 
 
 def value_text(each: Standing) -> str:
-    """Mean, half the width of its interval, and of how many runs if some are missing."""
+    """Mean, its interval, and of how many runs if some are missing."""
     runs = len(each.value.runs)
     if runs == 0:
         return f"none of {each.missing} runs"
     some = f" ({runs} of {runs + each.missing} runs)" if each.missing else ""
-    return number(each.value.mean) + _half(each.value.ci95) + some
+    return number(each.value.mean) + _interval(each.value.mean, each.value.ci95) + some
 
 
 def difference_text(each: Standing) -> str:
@@ -64,7 +65,15 @@ def family_text(family: str) -> str:
 
 def number(value: float) -> str:
     """Three decimals, one for large numbers."""
-    return f"{value:.{3 if abs(value) < 100 else 1}f}"
+    return f"{value:.{_decimals(value)}f}"
+
+
+def _decimals(value: float) -> int:
+    return 3 if abs(value) < 100 else 1
+
+
+def _interval(mean: float, interval: tuple[float, float] | None) -> str:
+    return spread_text(mean, *interval, _decimals(mean)) if interval else ""
 
 
 def _half(interval: tuple[float, float] | None) -> str:

@@ -10,8 +10,10 @@ from shoal.experiments.comparison import Comparison, Condition, Values, compare
 from shoal.experiments.contenders import LATTICE, Contender
 from shoal.experiments.design import Point
 from shoal.experiments.suite import Suite
+from shoal.metrics.summary import Bounds
 
 SCORE = "score"
+_SHARE = Bounds(0.0, 1.0)
 
 
 @dataclass(frozen=True)
@@ -46,8 +48,8 @@ def make_leaderboard(
     return Leaderboard(
         suite,
         suite_hash(suite, contenders),
-        compare({SCORE: ({}, scores)}, LATTICE, informed),
-        compare(shares, LATTICE, informed),
+        compare({SCORE: ({}, scores)}, LATTICE, informed, bounds=_SHARE),
+        compare(shares, LATTICE, informed, bounds=_SHARE),
     )
 
 

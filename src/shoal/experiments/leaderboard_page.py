@@ -1,5 +1,6 @@
 """A leaderboard as a part of a Markdown page: the same runs, the same bytes."""
 
+import re
 import shlex
 from collections.abc import Sequence
 from pathlib import Path
@@ -128,11 +129,24 @@ def _section(told: SuiteCondition, found: Condition) -> str:
 
 
 def _cells(each: Standing) -> list[str]:
-    return [rank_text(each), name_text(each), value_text(each), difference_text(each), p_text(each.adjusted_p)]
+    return [
+        rank_text(each),
+        _as_markdown(name_text(each)),
+        value_text(each),
+        difference_text(each),
+        p_text(each.adjusted_p),
+    ]
 
 
 def _names(condition: Condition, verdict: str) -> str:
-    return ", ".join(each.strategy for each in condition.standings if each.verdict == verdict and not each.informed)
+    return ", ".join(
+        _as_markdown(each.strategy) for each in condition.standings if each.verdict == verdict and not each.informed
+    )
+
+
+def _as_markdown(name: str) -> str:
+    """A name as text of a table, not as its markup."""
+    return re.sub(r"([\\`*_\[\]<>|$])", r"\\\1", name)
 
 
 def _markdown(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

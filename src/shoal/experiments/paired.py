@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from shoal.core.errors import MissingExtraError
-from shoal.record.statistics import estimate
+from shoal.metrics.summary import ANYTHING, Bounds
+from shoal.record.statistics import all_alike, estimate, two_sided
 
 SIGNIFICANT = 0.05  # of all true "no difference" in a table, the chance that any is called a difference
 
@@ -21,12 +21,11 @@ class Difference(NamedTuple):
     pairs: int
 
 
-def paired_difference(values: npt.ArrayLike, others: npt.ArrayLike) -> Difference:
+def paired_difference(values: npt.ArrayLike, others: npt.ArrayLike, bounds: Bounds = ANYTHING) -> Difference:
     """Return values - others, (R,) each, by Student's t over the runs that both have; NaN: a run without a value.
 
-    Raises
-    ------
-    MissingExtraError : scipy is absent
+    Where all pairs differ alike, t knows nothing of how rare others are: no interval, and p is that of the sign test.
+    `bounds` are those of the values.
     """
     differences = np.asarray(values, float) - np.asarray(others, float)
     differences = differences[np.isfinite(differences)]
@@ -34,12 +33,14 @@ def paired_difference(values: npt.ArrayLike, others: npt.ArrayLike) -> Differenc
     if pairs == 0:
         return Difference(float("nan"), None, None, 0)
     known = estimate(differences)
-    if known.ci95 is None:
+    if pairs == 1:
         return Difference(known.mean, None, None, pairs)
+    if known.ci95 is None or all_alike(differences):
+        return Difference(known.mean, None, 2.0 ** (1 - pairs) if known.mean else 1.0, pairs)
     error = float(differences.std(ddof=1)) / pairs**0.5
-    if error == 0.0:  # all pairs differ alike: by nothing, or beyond doubt
-        return Difference(known.mean, known.ci95, 0.0 if known.mean else 1.0, pairs)
-    return Difference(known.mean, known.ci95, _two_sided(abs(known.mean) / error, pairs - 1), pairs)
+    widest = bounds.high - bounds.low
+    interval = (max(known.ci95[0], -widest), min(known.ci95[1], widest))
+    return Difference(known.mean, interval, two_sided(known.mean / error, pairs - 1), pairs)
 
 
 def holm(p_values: Sequence[float | None]) -> list[float | None]:
@@ -54,23 +55,3 @@ def holm(p_values: Sequence[float | None]) -> list[float | None]:
         highest = max(highest, min(1.0, (len(known) - number) * p))
         adjusted[at] = highest
     return adjusted
-
-
-def need_scipy() -> None:
-    """Refuse at once what would fail after all runs.
-
-    Raises
-    ------
-    MissingExtraError : scipy is absent
-    """
-    try:
-        import scipy.stats  # noqa: F401
-    except ImportError:
-        raise MissingExtraError.of("scipy", "sweep", "comparing strategies") from None
-
-
-def _two_sided(t: float, degrees: int) -> float:
-    need_scipy()
-    from scipy.stats import t as student
-
-    return float(2 * student.sf(t, degrees))

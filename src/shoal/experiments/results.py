@@ -11,7 +11,7 @@ from shoal.core.errors import MissingExtraError, ScenarioError
 from shoal.core.files import MARK, write_whole
 from shoal.experiments.replicate import LIST_COLUMNS, Row
 from shoal.experiments.store import Store
-from shoal.metrics.summary import METRICS
+from shoal.metrics.summary import METRICS, bounds_of
 from shoal.record.statistics import estimate
 from shoal.version import VERSION
 
@@ -138,7 +138,7 @@ def seal(folder: Path, rows: Sequence[Row]) -> Path:
 def _intervals(group: Sequence[Row], metrics: Sequence[str]) -> Row:
     numbers: Row = {}
     for name in metrics:
-        known = estimate([row[name] for row in group])
+        known = estimate([row[name] for row in group], bounds=bounds_of(name))
         low, high = known.ci95 or (None, None)
         numbers |= {name: known.mean, f"{name}_low": low, f"{name}_high": high}
     return numbers

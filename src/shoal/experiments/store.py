@@ -16,7 +16,7 @@ from typing import Any, Self
 from urllib.parse import quote
 from uuid import uuid4
 
-from shoal.core.errors import RecordError
+from shoal.core.errors import RecordError, reason_of
 from shoal.core.files import OwnFolder
 from shoal.experiments.cells import Cell
 from shoal.experiments.replicate import Row
@@ -174,7 +174,7 @@ class Store:
             raise RecordError(self._where, "is not empty, and holds no sweep", "name a new or empty folder")
         partial = own.place / f".shoal-{uuid4().hex}.partial"
         try:
-            database = _connect(partial, "rwc")
+            database = _connect(partial, "rwc", patience=0.0)  # nobody else knows it
             try:
                 database.execute("PRAGMA journal_mode=MEMORY")  # no second file that a kill could leave
                 with database:
@@ -224,8 +224,7 @@ class Store:
         except sqlite3.OperationalError as error:
             raise RecordError(self._where, *_refused(error)) from error
         except Exception as error:
-            told = " ".join(str(error).split())[:300] or type(error).__name__
-            raise RecordError(self._where, f"is damaged: {told}", _MEND) from error
+            raise RecordError(self._where, f"is damaged: {reason_of(error)}", _MEND) from error
 
 
 _MEND = "take runs.sqlite from a backup, or run the sweep again in another folder"
@@ -242,12 +241,14 @@ def _refused(error: sqlite3.OperationalError) -> tuple[str, str]:
     return f"is damaged: {error}", _MEND
 
 
-def _connect(file: Path, mode: str | None) -> sqlite3.Connection:
+def _connect(file: Path, mode: str | None, patience: float | None = None) -> sqlite3.Connection:
     """Open a database; where nothing can be written, as it lies there."""
     if mode is None:
         mode = "rw" if os.access(file, os.W_OK) and os.access(file.parent, os.W_OK) else "ro&immutable=1"
     address = f"file:{quote(os.path.abspath(file))}?mode={mode}"
-    database: sqlite3.Connection = sqlite3.connect(address, uri=True, check_same_thread=False, timeout=_PATIENCE)
+    database: sqlite3.Connection = sqlite3.connect(
+        address, uri=True, check_same_thread=False, timeout=_PATIENCE if patience is None else patience
+    )
     database.row_factory = sqlite3.Row
     database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, 100_000_000)
     database.execute("PRAGMA trusted_schema=OFF")

@@ -6,13 +6,15 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import numpy as np
+
 from shoal.experiments.cells import Cell, base_table, make_cells
 from shoal.experiments.design import Design, Point
 from shoal.experiments.executors import Done, Executor, Task, in_threads
 from shoal.experiments.replicate import Row, replicate
 from shoal.experiments.store import Store
-from shoal.metrics.summary import METRICS
-from shoal.record.statistics import estimate
+from shoal.metrics.summary import METRICS, bounds_of
+from shoal.record.statistics import all_alike, estimate
 from shoal.version import RESULTS_VERSION
 
 FLUSH_SECONDS = 0.5  # rows are written together this often, or this many at a time
@@ -148,8 +150,9 @@ def _add_replicates(cells: Iterable[Cell], counts: dict[int, int], store: Store,
             values.setdefault(f"{row['scenario_hash']}/{row['seed']}", []).append(row["time_on_target"])
     added = False
     for cell in cells:
-        known = estimate(values.get(f"{cell.scenario.hash}/{cell.scenario.seed}", [math.nan]))
-        wide = known.ci95 is None or known.ci95[1] - known.ci95[0] > until.width
+        found = np.array(values.get(f"{cell.scenario.hash}/{cell.scenario.seed}", [math.nan]))
+        known = estimate(found, bounds=bounds_of("time_on_target")).ci95
+        wide = known[1] - known[0] > until.width if known else found.size < 2 or not all_alike(found)
         if wide and counts[id(cell)] < until.most:
             counts[id(cell)] = min(until.most, max(2, counts[id(cell)] + math.ceil(counts[id(cell)] / 2)))
             added = True

@@ -9,6 +9,16 @@ CELLS = 32  # along each side of the arena
 _FIRST = WINDOW // 10  # the steps at the start of a window that the rate is measured over
 
 
+def reachable(width: float, height: float, margin: float) -> float:
+    """Share of the cells that agents can be in, of an arena whose wall is `margin` inside its edge."""
+    share = 1.0
+    for side in (width, height):
+        first = math.floor(margin / side * CELLS)
+        last = min(math.floor((side - margin) / side * CELLS), CELLS - 1)
+        share *= (last - first + 1) / CELLS
+    return share
+
+
 @kernel
 def tally_coverage(tally, batch, world, swarm, number):
     """Mark the cells of a grid that agents are in; count them at a tenth and at the end of each window.

@@ -1,5 +1,6 @@
 """From sums to numbers: every metric as one formula over a tally, for all steps or for one batch of them."""
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -32,16 +33,33 @@ class Facts(NamedTuple):
         return sum(self.counts)
 
 
+class Bounds(NamedTuple):
+    """Between which values a metric lies, whatever happens."""
+
+    low: float = -math.inf
+    high: float = math.inf
+
+
+ANYTHING = Bounds()
+
+# Bounds that a scenario decides, and what they are where it is not known: number of agents, share of cells where they
+# may go, length of a run [s], and how often a target is lost that is found at every other step [1/h].
+LIMITS = {"agents": math.inf, "reach": 1.0, "duration": math.inf, "flicker": math.inf}
+
+
 class Metric(NamedTuple):
     """A number per run: its unit, one sentence, and its formula over a tally whose batches are summed (B = 1).
 
-    once : it happens once in a run, so that batches of steps say nothing about its spread
+    once : it happens once in a run, or the scenario decides it, so that batches of steps say nothing about its spread
+    low, high : its bounds; those that a scenario decides have a name, see LIMITS
     """
 
     unit: str
     sentence: str
     formula: Callable[[Tally, Facts], float]
     once: bool = False
+    low: float = 0.0
+    high: float | str = math.inf
 
 
 def _share(part: npt.NDArray[Any], whole: npt.NDArray[Any]) -> float:
@@ -79,6 +97,7 @@ METRICS: dict[str, Metric] = {
         "1",
         "share of the steps with a target there at which an agent is on it",
         lambda t, f: _share(t.on_target, t.present),
+        high=1.0,
     ),
     "xi": Metric(
         "1",
@@ -94,14 +113,24 @@ METRICS: dict[str, Metric] = {
         lambda t, f: _share(t.fluctuation, t.steps) * f.time_step / f.unit,
     ),
     "engaged": Metric(
-        "agents", "mean number of agents on target while a target is there", lambda t, f: _share(t.engaged, t.present)
+        "agents",
+        "mean number of agents on target while a target is there",
+        lambda t, f: _share(t.engaged, t.present),
+        high="agents",
     ),
     "stationary": Metric(
         "1",
         "share of agents slower than a tenth of their top speed while a target is there",
         lambda t, f: _share(t.stationary, t.histogram),
+        high=1.0,
     ),
-    "target_present": Metric("1", "share of the steps with a target there", lambda t, f: _share(t.present, t.steps)),
+    "target_present": Metric(
+        "1",
+        "share of the steps with a target there",
+        lambda t, f: _share(t.present, t.steps),
+        once=True,
+        high=1.0,
+    ),
     "targets_observed": Metric(
         "targets",
         "mean number of targets that somebody is on (as in CMOMMT: Parker, Autonomous Robots 12, 2002)",
@@ -111,27 +140,32 @@ METRICS: dict[str, Metric] = {
         "1",
         "Jain's index of the targets' time on target: 1 all alike, 1/T one has it all",
         lambda t, f: _fairness(t),
+        high=1.0,
     ),
     "first_detection": Metric(
         "s",
         "time at which a target is there until it is first detected, mean over targets; the whole of it if never",
         lambda t, f: float(t.undetected.sum(axis=0).mean()) * f.time_step,
         once=True,
+        high="duration",
     ),
     "losses": Metric(
         "1/h",
         "how often a target is lost, per hour of it being there",
         lambda t, f: _share(t.losses, t.target_steps) * 3600.0 / f.time_step,
+        high="flicker",
     ),
     "reacquisition": Metric(
         "s",
         "mean time from the loss of a target to its next detection",
         lambda t, f: _share(t.ended_steps, t.ended) * f.time_step,
+        high="duration",
     ),
     "coverage": Metric(
         "1",
         "share of the arena that agents pass through in 1,000 steps (grid of 32 x 32)",
         lambda t, f: _share(t.covered, t.windows),
+        high="reach",
     ),
     "coverage_rate": Metric(
         "m^2/s",
@@ -139,12 +173,17 @@ METRICS: dict[str, Metric] = {
         lambda t, f: _share(t.swept, t.sweeps) * f.area / (100 * f.time_step),
     ),
     "components": Metric(
-        "1", "parts that the network falls into (synchronous order)", lambda t, f: _share(t.components, t.graphs)
+        "1",
+        "parts that the network falls into (synchronous order)",
+        lambda t, f: _share(t.components, t.graphs),
+        low=1.0,
+        high="agents",
     ),
     "clustering": Metric(
         "1",
         "share of pairs of an agent's neighbors that are linked (synchronous order)",
         lambda t, f: _share(t.clustering, t.graphs),
+        high=1.0,
     ),
     "messages": Metric(
         "1/s", "reports that an agent receives per second", lambda t, f: _share(t.heard, t.agent_steps) / f.time_step
@@ -170,6 +209,29 @@ def evaluate(name: str, tally: Tally, facts: Facts) -> tuple[float, Floats]:
         return formula(tally, facts), np.array([])
     batches = [formula(batch_of(tally, b), facts) for b in range(tally.steps.size)]
     return formula(tally, facts), np.array(batches)
+
+
+def batch_values(formula: Callable[[Tally], float], tally: Tally) -> Floats:
+    """Return a metric in each batch that has one, (<= B,), so that their spread tells that of the whole run's value.
+
+    Those of the jackknife: n times the whole less (n - 1) times the run without the batch. The same as the batch's own
+    value where every batch weighs the same; of a ratio such as the time to find a target again, whose batches hold
+    more or fewer cases, they have no bias. Batches that the metric does not hear of (a loss that does not end) have
+    none.
+    """
+    batches = tally.steps.size
+    whole = Tally._make(_summed(part, batches) for part in tally)
+    heard = [batch for batch in range(batches) if math.isfinite(formula(batch_of(tally, batch)))]
+    count, value = len(heard), formula(whole)
+    if count == 1:
+        return np.array([value])
+    return np.array([count * value - (count - 1) * formula(_without(whole, tally, batch)) for batch in heard])
+
+
+def bounds_of(name: str, **limits: float) -> Bounds:
+    """Bounds of a metric, with those of LIMITS that are known."""
+    metric = METRICS[name]
+    return Bounds(metric.low, (LIMITS | limits)[metric.high] if isinstance(metric.high, str) else metric.high)
 
 
 def phi_histogram(tally: Tally) -> Floats:
@@ -203,3 +265,16 @@ def fleet_power(tally: Tally, facts: Facts) -> tuple[Floats, Floats]:
 def or_nan(sums: npt.NDArray[Any]) -> Floats:
     """Sums to divide by, NaN where they are zero: what nobody was there for has no mean."""
     return np.where(sums > 0, sums, np.nan)
+
+
+def _summed(part: npt.NDArray[Any], batches: int) -> npt.NDArray[Any]:
+    """A column of a tally, its batches summed; what is no sum stays."""
+    return part.sum(axis=0, keepdims=True) if part.shape[0] == batches else part
+
+
+def _without(whole: Tally, tally: Tally, batch: int) -> Tally:
+    """The sums of all batches but one."""
+    return Tally._make(
+        total - part[batch : batch + 1] if part.shape[0] == tally.steps.size else total
+        for total, part in zip(whole, tally, strict=True)
+    )

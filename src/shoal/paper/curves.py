@@ -10,9 +10,11 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.metrics.heading_bearing import CENTERS
+from shoal.metrics.summary import ANYTHING, METRICS, Bounds, bounds_of
 from shoal.paper.peaks import tops
+from shoal.paper.plan import AGENTS
 from shoal.paper.results import Row
-from shoal.record.statistics import estimate, t_quantile
+from shoal.record.statistics import estimate, inside, t_quantile
 
 Floats = npt.NDArray[np.float64]
 Metric = str | Callable[[Row], float]  # a column, or a number made of a row
@@ -42,6 +44,7 @@ class Curve:
 
     x: Floats
     runs: Floats
+    bounds: Bounds = ANYTHING
 
     @property
     def mean(self) -> Floats:
@@ -51,7 +54,7 @@ class Curve:
 
     def intervals(self) -> list[Interval]:
         """Student's t over seeds, at every place."""
-        return [_interval(values) for values in self.runs.T]
+        return [_interval(values, self.bounds) for values in self.runs.T]
 
     def at(self, x: float) -> Floats:
         """The runs at one place, (R,).
@@ -69,7 +72,7 @@ class Curve:
     def between(self, low: float, high: float) -> "Curve":
         """The part with low <= x <= high."""
         inside = (self.x >= low) & (self.x <= high)
-        return Curve(self.x[inside], self.runs[:, inside])
+        return Curve(self.x[inside], self.runs[:, inside], self.bounds)
 
     def minus(self, other: "Curve") -> "Curve":
         """The paired difference at the places that both have."""
@@ -101,7 +104,7 @@ def curve(rows: Iterable[Row], metric: Metric, along: str = "neighbors", **where
     x = sorted(cells)
     seeds = sorted(set.intersection(*(set(cell) for cell in cells.values()))) if cells else []
     runs = np.array([[cells[at][seed] for at in x] for seed in seeds]).reshape(len(seeds), len(x))
-    return Curve(np.array(x), runs)
+    return Curve(np.array(x), runs, bounds_of(metric, agents=AGENTS) if metric in METRICS else ANYTHING)
 
 
 def heading_there(row: Row) -> float:
@@ -129,7 +132,7 @@ def values_of(rows: Iterable[Row], field: str) -> list[float]:
     return sorted({row[field] for row in rows if row.get(field) is not None})
 
 
-def intervals(cases: Sequence[Floats]) -> list[Interval]:
+def intervals(cases: Sequence[Floats], bounds: Bounds = ANYTHING) -> list[Interval]:
     """Mean and 95 % interval of each case from its values in the seeds, (R,).
 
     From four seeds on by each case's own spread (Student's t, R - 1 degrees of freedom). A spread of two or three
@@ -140,12 +143,13 @@ def intervals(cases: Sequence[Floats]) -> list[Interval]:
     found = []
     for values, degrees in zip(cases, degrees_of_freedom(cases), strict=True):
         if degrees == len(values) - 1 or len(values) < 2:
-            found.append(_interval(values))
+            found.append(_interval(values, bounds))
             continue
         alike = [other for other in cases if len(other) == len(values)]
         spread = math.sqrt(float(np.mean([np.var(other, ddof=1) for other in alike])))
         half = t_quantile(degrees) * spread / math.sqrt(len(values))
-        found.append(Interval(float(values.mean()), float(values.mean()) - half, float(values.mean()) + half))
+        mean = float(values.mean())
+        found.append(Interval(mean, *inside(mean, half, bounds)))
     return found
 
 
@@ -181,7 +185,8 @@ def peak(of: Curve, draws: int = DRAWS) -> Peak:
     if seeds == 1:
         unknown = np.full(draws, np.nan)
         return Peak(_around(found.place, unknown), _around(found.height, unknown), unknown, at_edge)
-    return Peak(_around(found.place, found.places), _around(found.height, found.heights), found.places, at_edge)
+    heights = found.heights.clip(*of.bounds)
+    return Peak(_around(found.place, found.places), _around(found.height, heights), found.places, at_edge)
 
 
 def peak_difference(one: Peak, other: Peak) -> Interval:
@@ -201,8 +206,8 @@ def bootstrap(values: npt.ArrayLike, statistic: Callable[..., Floats]) -> Interv
 _UNKNOWN = Interval(math.nan, math.nan, math.nan)
 
 
-def _interval(values: Floats) -> Interval:
-    known = estimate(values)
+def _interval(values: Floats, bounds: Bounds) -> Interval:
+    known = estimate(values, bounds=bounds)
     return Interval(known.mean, *(known.ci95 or (math.nan, math.nan)))
 
 

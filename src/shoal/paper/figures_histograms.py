@@ -9,6 +9,7 @@ import numpy.typing as npt
 from shoal.drawing.histogram import PHI_EDGES, draw_phi_bars, label_phi
 from shoal.drawing.style import INK, new_figure, style
 from shoal.metrics.heading_bearing import CENTERS
+from shoal.metrics.summary import Bounds
 from shoal.paper.curves import intervals
 from shoal.paper.figures_series import (
     ALL_SLOW,
@@ -89,7 +90,7 @@ def _draw_panel(axes: "Axes", cell: Sequence[Row], labels: dict[str, Any]) -> li
         for fleet, heights in fleets.items()
         for at, height in zip(_PHI, heights.tolist(), strict=True)
     ]
-    totals = intervals(list(np.array([row["phi_histogram"] for row in cell]).T))
+    totals = intervals(list(np.array([row["phi_histogram"] for row in cell]).T), Bounds(0.0, AGENTS))
     for left, right, at, (mean, low, high) in zip(PHI_EDGES[:-1], PHI_EDGES[1:], _PHI, totals, strict=True):
         axes.vlines((left + right) / 2, low, high, color=INK, linewidth=0.9)
         data.append({**labels, "agents": "all", "phi": at, "unit": _UNIT, "mean": mean,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shoal.drawing.curves import draw_curve
+from shoal.metrics.summary import Bounds
 from shoal.paper.curves import FEW, intervals
 from shoal.paper.plan import AGENTS
 from shoal.paper.results import Row
@@ -91,12 +92,12 @@ def series(rows: Iterable[Row], x: str, quantity: Quantity) -> Series:
         if row.get(x) is not None and value is not None and math.isfinite(value):
             cells.setdefault(float(row[x]), []).append(quantity.factor * value)
     places = sorted(cells)
-    known = intervals([np.array(cells[at]) for at in places])
+    known = intervals([np.array(cells[at]) for at in places], Bounds(0.0, quantity.most))
     return Series(
         tuple(places),
         tuple(each.value for each in known),
-        tuple(float(np.clip(each.low, 0.0, quantity.most)) for each in known),
-        tuple(float(np.clip(each.high, 0.0, quantity.most)) for each in known),
+        tuple(each.low for each in known),
+        tuple(each.high for each in known),
         tuple(len(cells[at]) for at in places),
     )
 

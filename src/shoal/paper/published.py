@@ -44,7 +44,7 @@ def residual_table(rows: Sequence[Row]) -> list[Row]:
         absolute, relative = BARS[metric]
         ours = curve(rows, metric, preset=PRESET)
         spread = _spread(ours.runs) if ours.x.size else math.nan
-        found = dict(zip(ours.x, intervals(list(ours.runs.T)), strict=True))
+        found = dict(zip(ours.x, intervals(list(ours.runs.T), ours.bounds), strict=True))
         for k, published in zip(NEIGHBORS, numbers, strict=True):
             if k not in found:
                 continue

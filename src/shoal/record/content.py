@@ -4,7 +4,7 @@ import hashlib
 import json
 import math
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
@@ -17,6 +17,7 @@ FORMAT = 2  # 1 had no checksums
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
 _Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 _Whole = Annotated[int, Field(ge=0, lt=2**64)]
+_Degree = Annotated[int, Field(ge=1, le=2**31)] | Literal["all"]
 
 
 class _Part(BaseModel):
@@ -28,6 +29,7 @@ class _Part(BaseModel):
 class _Area(_Part):
     width: _Positive
     height: _Positive
+    agent_margin: _Finite
     origin: list[_Finite] | None = None
 
 
@@ -40,18 +42,25 @@ class _Fleet(_Part):
     count: _Whole
     max_speed: _Positive
     sensor_radius: _Finite
-    neighbors: int | str | None = None
+    neighbors: _Degree | None = None
     strategy: _Strategy | None = None
 
 
+class _Adaptive(_Part):
+    fewest: _Whole
+    most: _Whole
+
+
 class _Network(_Part):
-    neighbors: int | str
+    neighbors: _Degree
+    range: _Positive | None = None
+    adaptive: _Adaptive | None = None
 
 
 class _Target(_Part):
     kind: str
     radius: _Positive
-    speed: _Finite | None = None
+    speed: _Finite = 0.0
 
 
 class _Loss(_Part):

@@ -12,7 +12,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from shoal.core.errors import RecordError
+from shoal.core.errors import RecordError, reason_of
 from shoal.core.files import WholeFolder
 from shoal.metrics.summary import Facts
 from shoal.metrics.tally import Tally
@@ -196,5 +196,6 @@ def _plain(part: Any) -> Any:
 
 
 def _damaged(folder: Path, error: Exception) -> RecordError:
-    told = " ".join(str(error).split())[:300] or type(error).__name__
-    return RecordError(str(folder), f"is damaged: {told}", "take it from a backup, or run the scenario again")
+    return RecordError(
+        str(folder), f"is damaged: {reason_of(error)}", "take it from a backup, or run the scenario again"
+    )

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -10,20 +11,23 @@ import numpy.typing as npt
 from shoal.core.errors import UnknownNameError, no_attribute
 from shoal.core.sheet import Sheet
 from shoal.core.text import plain
+from shoal.metrics.coverage import reachable
 from shoal.metrics.each_target import each_target, loss_lengths
 from shoal.metrics.robustness import Robustness, robustness
 from shoal.metrics.summary import (
     METRICS,
+    Bounds,
     Facts,
-    evaluate,
+    batch_values,
+    bounds_of,
     fleet_fluctuation,
     fleet_power,
     fleet_stationary,
     mean_max_speed,
     phi_histogram,
 )
-from shoal.metrics.tally import Tally, batch_of
-from shoal.record.statistics import Estimate, estimate
+from shoal.metrics.tally import Tally
+from shoal.record.statistics import FEWEST, Estimate, all_alike, estimate
 from shoal.record.trajectory import Trajectory
 from shoal.record.words import interval_text, mean_text
 from shoal.scenario.choices import headline
@@ -64,8 +68,41 @@ class Record:
         """
         if metric not in METRICS:
             raise UnknownNameError.of("metric", metric, METRICS)
-        values, batches = zip(*(evaluate(metric, tally, self.facts) for tally in self.tallies), strict=True)
-        return estimate(values, batches[0])
+        values = [METRICS[metric].formula(tally, self.facts) for tally in self.tallies]
+        return estimate(values, self._batches(metric), self.bounds(metric))
+
+    def bounds(self, metric: str) -> Bounds:
+        """Between which values a metric lies in this scenario, whatever happens.
+
+        Raises
+        ------
+        KeyError : no metric of this name
+        """
+        area, step = self.scenario["area"], self.facts.time_step
+        return bounds_of(
+            metric,
+            agents=self.facts.agents,
+            reach=reachable(area["width"], area["height"], area["agent_margin"]),
+            duration=self.scenario["steps"] * step,
+            flicker=1800.0 / step,
+        )
+
+    def too_short(self) -> list[str]:
+        """Metrics that vary within a single run, which is too short to tell how much: they have no interval."""
+        found = []
+        for metric in METRICS:
+            batches = self._batches(metric)
+            varies = batches is not None and batches.size > 0 and (batches.size < FEWEST or not all_alike(batches))
+            if varies and self.estimate(metric).ci95 is None:
+                found.append(metric)
+        return found
+
+    def _batches(self, metric: str) -> npt.NDArray[np.float64] | None:
+        """Values in the batches of a single run, of a metric that has any."""
+        told = METRICS[metric]
+        if len(self.tallies) > 1 or told.once:
+            return None
+        return batch_values(lambda tally: told.formula(tally, self.facts), self.tallies[0])
 
     def phi_histogram(self) -> npt.NDArray[np.float64]:
         """Mean agents per step in each bin of phi from -1 to +1, by fleet: (F, 11). All bins sum to N. Eq. 8."""
@@ -88,16 +125,21 @@ class Record:
             "stationary": lambda tally: fleet_stationary(tally, self.facts),
         }
         formula = formulas[metric]
-        first = self.tallies[0]
         runs = np.array([formula(tally) for tally in self.tallies])
-        batches = np.array([formula(batch_of(first, b)) for b in range(first.steps.size)])
-        return {name: estimate(runs[:, f], batches[:, f]) for f, name in enumerate(self.facts.fleets)}
+        found = {}
+        for fleet, name in enumerate(self.facts.fleets):
+            alone = batch_values(partial(_of_fleet, formula, fleet), self.tallies[0]) if len(runs) == 1 else None
+            found[name] = estimate(runs[:, fleet], alone, bounds_of(metric, agents=self.facts.counts[fleet]))
+        return found
 
     def target_estimates(self) -> list[dict[str, Estimate]]:
         """`time_on_target`, `first_detection` [s], `losses` [1/h] and `reacquisition` [s] of each target, over runs."""
         runs = [each_target(tally, self.facts) for tally in self.tallies]
         targets = range(self.tallies[0].target_steps.shape[1])
-        return [{name: estimate([run[name][j] for run in runs]) for name in runs[0]} for j in targets]
+        return [
+            {name: estimate([run[name][j] for run in runs], bounds=self.bounds(name)) for name in runs[0]}
+            for j in targets
+        ]
 
     def loss_lengths(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
         """How long targets stayed lost, of all runs: edges of the bins [s] (B + 1,), and ended losses in each (B,)."""
@@ -116,9 +158,10 @@ class Record:
         `recovery` is the mean over the runs that recover; a run that does not is NaN among its `runs`.
         """
         changes = self.changes()
+        limits = dict.fromkeys(Robustness._fields, Bounds(0.0, 1.0)) | {"recovery": self.bounds("reacquisition")}
         runs = [robustness(tally, changes, self.facts.time_step) for tally in self.tallies]
         return [
-            {name: _over_some([getattr(run[c], name) for run in runs]) for name in Robustness._fields}
+            {name: _over_some([getattr(run[c], name) for run in runs], bounds) for name, bounds in limits.items()}
             for c in range(len(changes))
         ]
 
@@ -216,10 +259,14 @@ class Record:
             raise no_attribute("a Record", name, dict.fromkeys([*type(self).__dataclass_fields__, *methods]))
 
 
-def _over_some(values: list[float]) -> Estimate:
+def _over_some(values: list[float], bounds: Bounds) -> Estimate:
     """An estimate over the runs that have a value; all are listed."""
     have = [value for value in values if np.isfinite(value)]
-    return estimate(have or [np.nan])._replace(runs=tuple(values))
+    return estimate(have or [np.nan], bounds=bounds)._replace(runs=tuple(values))
+
+
+def _of_fleet(formula: Callable[[Tally], npt.NDArray[np.float64]], fleet: int, tally: Tally) -> float:
+    return float(formula(tally)[fleet])
 
 
 def _plain(value: Estimate) -> dict[str, Any]:

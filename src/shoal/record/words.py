@@ -15,5 +15,17 @@ def interval_text(value: Estimate) -> str:
     return " .. ".join(f"{end:.{_decimals(value)}f}" for end in value.ci95) if value.ci95 else "-"
 
 
+def spread_text(mean: float, low: float | None, high: float | None, decimals: int) -> str:
+    """An interval after its mean: half its width, or its ends where a bound makes it lopsided; or nothing.
+
+    Lopsided: one side is longer than the other by more than a tenth of both.
+    """
+    if low is None or high is None:
+        return ""
+    if abs(low + high - 2 * mean) > 0.1 * (high - low):
+        return f" [{low:.{decimals}f}, {high:.{decimals}f}]"
+    return f" ± {(high - low) / 2:.{decimals}f}"
+
+
 def _decimals(value: Estimate) -> int:
     return 4 if not abs(value.mean) >= 100 else 1

@@ -22,10 +22,9 @@ from shoal.experiments.comparison_words import (
 from shoal.experiments.compiled_first import compiled_first
 from shoal.experiments.contenders import contenders
 from shoal.experiments.executors import Executor, in_threads
-from shoal.experiments.paired import need_scipy
 from shoal.experiments.replicate import Row
 from shoal.experiments.sweep import Progress
-from shoal.metrics.summary import METRICS
+from shoal.metrics.summary import METRICS, bounds_of
 from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source
 from shoal.strategies.plugins import name_of
@@ -186,7 +185,6 @@ def compare(
     ------
     ScenarioError, StrategyError : what cannot run; nothing was run then
     RecordError : `out` is another study's, is in use, or cannot be written
-    MissingExtraError : scipy is not installed (extra: sweep)
     """
     positive(runs=runs, jobs=jobs)
     check_words(changes, also=("runs", "vary", "metric", "baseline", "jobs", "out", "progress"))
@@ -219,7 +217,6 @@ def compared(
     report: Callable[[Progress], None] | None,
 ) -> Compared:
     """Run what is missing and compare; what `compare` and the command line have in common."""
-    need_scipy()
     if metric not in METRICS:
         hint = did_you_mean(metric, METRICS)
         raise ScenarioError(f"metric {metric}", "is no metric", f"{hint}there are: {', '.join(METRICS)}")
@@ -242,7 +239,7 @@ def compared(
         runs=runs,
         steps=first.steps,
         seed=first.seed,
-        comparison=compare_values(table, baseline or names[0], informed, direction),
+        comparison=compare_values(table, baseline or names[0], informed, direction, bounds_of(metric)),
         found=found,
     )
 

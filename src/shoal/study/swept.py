@@ -14,6 +14,7 @@ from shoal.experiments.results import aggregate, seal
 from shoal.experiments.sweep import Stop
 from shoal.experiments.sweep import sweep as run_sweep
 from shoal.plot import curves
+from shoal.record.words import spread_text
 from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source, load
 from shoal.study.folder import positive, progress_of, store_folder
@@ -104,7 +105,9 @@ class Swept:
                 )
                 for group in groups
             ],
-            note=f"{len(failed)} runs failed, the first: {failed[0]}" if failed else "means ± half of a 95 % interval",
+            note=f"{len(failed)} runs failed, the first: {failed[0]}"
+            if failed
+            else "means ± half of a 95 % interval, or its ends",
         )
 
     def _cells(self, group: Row) -> list[str]:
@@ -174,4 +177,4 @@ def sweep(
 
 def _mean(group: Row, name: str) -> str:
     low, high = group[f"{name}_low"], group[f"{name}_high"]
-    return f"{group[name]:.4f}" if low is None else f"{group[name]:.4f} ± {(high - low) / 2:.4f}"
+    return f"{group[name]:.4f}{spread_text(group[name], low, high, 4)}"

@@ -71,9 +71,7 @@ def compare(
     from shoal.cli.compare.suite import compare_suite
     from shoal.cli.options import check_positive
     from shoal.core.errors import ScenarioError
-    from shoal.experiments.paired import need_scipy
 
-    need_scipy()
     check_places(out, figure)
     check_positive(runs=runs, steps=steps, jobs=jobs)
     if not suite:

@@ -1,0 +1,61 @@
+"""The state of a stopped simulation as one file, which proves itself."""
+
+import hashlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.core.errors import RecordError, reason_of
+from shoal.core.files import whole_file
+
+Arrays = Mapping[str, npt.NDArray[Any]]
+
+
+def write_state(file: str | Path, identity: str, arrays: Arrays) -> None:
+    """Write arrays and whose they are, whole or not at all.
+
+    Raises
+    ------
+    RecordError : it cannot be written
+    """
+    checksum = _sum_of(identity, arrays)
+    with whole_file(file) as partial, partial.open("wb") as stream:
+        np.savez(stream, identity=np.array(identity), sha256=np.array(checksum), **dict(arrays))  # type: ignore[arg-type]
+
+
+def read_state(file: str | Path, identity: str, like: Arrays) -> dict[str, npt.NDArray[Any]]:
+    """Return the arrays of a file; they have the shapes and types of those of `like`.
+
+    Raises
+    ------
+    RecordError : no saved state, a damaged one, or one of something else
+    """
+    try:
+        with Path(file).open("rb") as stream, np.load(stream) as state:
+            owner = str(state["identity"])
+            if owner != identity:
+                raise RecordError(str(file), f"was saved by {owner}, this is {identity}", "use the same scenario")
+            saved = {}
+            for name, mine in like.items():
+                saved[name] = state[name]
+                if (saved[name].shape, saved[name].dtype) != (mine.shape, mine.dtype):
+                    raise ValueError(f"{name} has another shape or type")
+            if str(state["sha256"]) != _sum_of(identity, saved):
+                raise ValueError("it is not what was written")
+            return saved
+    except RecordError:
+        raise
+    except Exception as error:  # whatever a damaged file does to those who read it
+        problem = f"is no saved state: {reason_of(error)}"
+        raise RecordError(str(file), problem, "name a file made by Simulation.save") from error
+
+
+def _sum_of(identity: str, arrays: Arrays) -> str:
+    total = hashlib.sha256(identity.encode())
+    for name in sorted(arrays):
+        total.update(name.encode())
+        total.update(np.ascontiguousarray(arrays[name]).tobytes())
+    return total.hexdigest()
