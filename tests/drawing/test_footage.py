@@ -6,7 +6,8 @@ import pytest
 from scenarios import scenario
 from shoal.core.errors import ScenarioError
 from shoal.drawing.film_charts import phi_of_frames
-from shoal.drawing.footage import footage, present, watching
+from shoal.drawing.footage import footage, present
+from shoal.record.frames import watching
 from shoal.run.simulate import simulate
 from shoal.run.simulation import Simulation
 

@@ -7,13 +7,13 @@ import numpy.typing as npt
 
 from shoal.drawing.arena import arena_aspect
 from shoal.drawing.film_charts import Charts
-from shoal.drawing.footage import watching
 from shoal.drawing.legend import draw_legend, legend_height
 from shoal.drawing.scene import Parts, Scene
 from shoal.drawing.snapshot import state_text
 from shoal.drawing.stretch import Stretch
 from shoal.drawing.style import GRAY, INK, TARGET, new_figure
 from shoal.drawing.words import count, shorten
+from shoal.record.frames import watching
 from shoal.record.record import Record
 
 if TYPE_CHECKING:

@@ -3,9 +3,6 @@
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-import numpy.typing as npt
-
 from shoal.core.errors import ScenarioError
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
@@ -53,21 +50,3 @@ def present(simulation: Simulation) -> Record:
 def _record(scenario: Scenario, simulation: Simulation, frames: Trajectory) -> Record:
     content: dict[str, Any] = scenario.model_dump(mode="json")
     return Record(content, facts_of(scenario), (simulation.tally,), {"seed": scenario.seed}, {simulation.run: frames})
-
-
-def watching(record: Record, run: int) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.bool_]]:
-    """How many agents are on a target that is there, and whether one is, at every frame: (K,), (K,).
-
-    An agent that reports a target out of its sensor's reach, a false alarm, is not on target.
-    """
-    frames, scenario = record.trajectories[run], record.scenario
-    sensors = np.repeat([fleet["sensor_radius"] for fleet in scenario["fleets"]], record.facts.counts)
-    near = np.zeros(frames.on_target.shape, bool)
-    for number, target in enumerate(scenario["targets"]):
-        dx = frames.x - frames.target_x[:, number, None]
-        dy = frames.y - frames.target_y[:, number, None]
-        there = np.asarray(frames.target_present[:, number])
-        near |= (dx * dx + dy * dy <= (sensors + target["radius"]) ** 2) & there[:, None]
-    engaged: npt.NDArray[np.int64] = (near & frames.on_target & frames.alive).sum(axis=1)
-    present: npt.NDArray[np.bool_] = np.any(frames.target_present, axis=1)
-    return engaged, present

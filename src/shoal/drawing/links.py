@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.drawing.style import GRAY
+from shoal.record.frames import degrees_of
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 
@@ -23,7 +24,7 @@ class Links:
         from matplotlib.collections import LineCollection
 
         network = record.scenario["network"]
-        self._degrees = _degrees(record)
+        self._degrees = degrees_of(record)
         self._reach = network["range"] or math.inf
         self._lines = LineCollection([], colors=GRAY, linewidths=0.6, zorder=1.5)
         self._lines.set_gid("links")
@@ -68,10 +69,3 @@ def nearest_pairs(
         hearing.append(np.stack([mine[i], nearest[i, place]], axis=1))
     pairs: npt.NDArray[np.int64] = np.unique(np.sort(np.concatenate(hearing), axis=1), axis=0)
     return pairs
-
-
-def _degrees(record: Record) -> npt.NDArray[np.int64]:
-    """K of each agent (N,)."""
-    facts, scenario = record.facts, record.scenario
-    chosen = [fleet["neighbors"] or scenario["network"]["neighbors"] for fleet in scenario["fleets"]]
-    return np.repeat([facts.agents - 1 if degree == "all" else int(degree) for degree in chosen], facts.counts)

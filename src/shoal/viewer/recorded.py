@@ -8,9 +8,8 @@ import numpy.typing as npt
 from shoal.core.agents import Floats
 from shoal.metrics.summary import METRICS, evaluate
 from shoal.metrics.tally import new_tally
+from shoal.record.frames import degrees_of, watching
 from shoal.record.record import Record
-from shoal.record.trajectory import Trajectory
-from shoal.strategies.plugins import find_strategy
 from shoal.viewer.frame import RECENT, Gauges, pack
 from shoal.viewer.meter import Meter
 from shoal.viewer.scene import REPULSION, scene_of
@@ -55,17 +54,18 @@ def recorded_scene(record: Record, run: int) -> dict[str, Any]:
 
 def recorded_frames(record: Record, run: int, chosen: npt.NDArray[np.int64]) -> list[bytes]:
     """The bytes of some of the frames that a record keeps of a run, given their indices."""
-    scenario, size, kept = record.scenario, record.facts.agents, record.trajectories[run]
+    size, kept = record.facts.agents, record.trajectories[run]
     course = _Course(record, run)
     meter = Meter(record.facts, kept)
     repulsion = kept.memory.get(REPULSION)
-    degree = _degrees(scenario, record.facts.counts)
+    degree = degrees_of(record)
+    engaged, _ = watching(record, run)
     return [
         pack(
             run=0,
             epoch=0,
             step=int(kept.step[k]),
-            gauges=_gauges(course, meter, kept, k),
+            gauges=_gauges(course, meter, int(kept.step[k]), k, float(engaged[k])),
             agents={
                 "x": kept.x[k],
                 "y": kept.y[k],
@@ -82,15 +82,14 @@ def recorded_frames(record: Record, run: int, chosen: npt.NDArray[np.int64]) -> 
     ]
 
 
-def _gauges(course: "_Course", meter: Meter, kept: Trajectory, k: int) -> Gauges:
-    step = int(kept.step[k])
+def _gauges(course: "_Course", meter: Meter, step: int, k: int, engaged: float) -> Gauges:
     xi_now, phi = meter.read(k)
     return Gauges(
         time_on_target=course.time_on_target(0, step),
         recent=course.time_on_target(max(0, step - RECENT), step),
         xi=course.xi(step),
         xi_now=xi_now,
-        engaged=float(np.count_nonzero(kept.on_target[k])),
+        engaged=engaged,
         phi=phi,
     )
 
@@ -121,18 +120,6 @@ class _Course:
         """Over the steps before `last`."""
         sums: dict[str, Any] = {name: _until(last, self._batches, each)[None] for name, each in self._sums.items()}
         return METRICS["xi"].formula(self._none._replace(**sums), self._facts)
-
-
-def _degrees(scenario: dict[str, Any], counts: tuple[int, ...]) -> npt.NDArray[np.int64]:
-    """k of each agent as the scenario says it; records do not keep how it adapts."""
-    everybody = sum(counts) - 1
-    degrees = []
-    for fleet in scenario["fleets"]:
-        chosen = fleet.get("strategy") or scenario["strategy"]
-        strategy = find_strategy(chosen["name"], chosen.get("source"))
-        degree = fleet.get("neighbors") or scenario["network"]["neighbors"]
-        degrees.append(everybody if degree == "all" or (strategy and strategy.hears_all) else degree)
-    return np.repeat(degrees, counts)
 
 
 def _running(sums: Floats) -> Floats:
