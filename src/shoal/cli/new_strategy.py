@@ -49,9 +49,11 @@ def _write(texts: dict[Path, str]) -> None:
             with file.open("x", encoding="utf-8") as stream:
                 written.append(file)
                 stream.write(text)
-    except OSError as error:
+    except BaseException as error:
         for half in written:
             half.unlink()
         if isinstance(error, FileExistsError):
             raise StrategyError(str(file), "exists already", "choose another name or folder") from None
-        raise StrategyError(str(file), f"cannot be written: {error.strerror}", "choose another folder") from None
+        if isinstance(error, OSError):
+            raise StrategyError(str(file), f"cannot be written: {error.strerror}", "choose another folder") from None
+        raise

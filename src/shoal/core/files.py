@@ -137,6 +137,8 @@ class OwnFolder:
             if self.place.exists() and not self.place.is_dir():
                 raise RecordError(self._where, "exists already", "name another folder, or remove this one first")
             for folder in reversed([self.place, *self.place.parents]):
+                if folder.exists() and not folder.is_dir():
+                    raise RecordError(self._where, f"cannot be written: {folder.name} is a file", "name another folder")
                 if not folder.is_dir():
                     folder.mkdir()
                     self._made.append(folder)

@@ -54,7 +54,7 @@ METHOD = {
         _SEEDS,
         "The place and the height of a peak are those of the smooth curves that fit all points, drawn from a Gaussian "
         "process that learns from the points how smooth the curve is, with noise bootstrapped over seeds. On made-up "
-        "curves of the paper\u2019s shapes, 95 % or more of the intervals hold the true place.",
+        "curves of the paper\u2019s shapes, from 3 or 5 seeds, 93 % or more of the intervals hold the true place.",
         _RULE,
         "The key number of a claim is that of the case that speaks most against it.",
         "Where the paper reads a k off a plot (\u201cabout 18\u201d), "

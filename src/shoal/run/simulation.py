@@ -4,20 +4,19 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 
 from shoal.compiler.kernel import compiles
 from shoal.compiler.placed import Placed
 from shoal.core.agents import NEVER, Minds, as_records
-from shoal.core.errors import RecordError, ScenarioError, StrategyError
-from shoal.core.files import whole_file
+from shoal.core.errors import ScenarioError, StrategyError
 from shoal.core.text import plain
 from shoal.engine.phases import addresses
 from shoal.engine.rollout import set_out
 from shoal.engine.stage import Frames, Run, Stage, new_frames, new_scratch
 from shoal.metrics.tally import new_tally
+from shoal.record.saved_state import read_state, write_state
 from shoal.record.trajectory import Trajectory
 from shoal.run.build import build_radio, build_swarm, build_targets, build_world, losses_of, open_tracks
 from shoal.run.compiling import entry_points
@@ -159,47 +158,24 @@ class Simulation:
 
     def state(self) -> dict[str, Any]:
         """Everything that a resumed run needs, as arrays by name; read-only."""
-        return dict(arrays_of(self.moment)) | {
-            "number": np.array(self.number),
-            "identity": np.array(self._identity()),
-        }
+        return dict(arrays_of(self.moment)) | {"number": np.array(self.number)}
 
     def save(self, file: str | Path) -> None:
         """Write the state to an .npz file, whole or not at all."""
-        with whole_file(file) as partial, partial.open("wb") as stream:
-            np.savez(stream, **self.state())
+        write_state(file, self._identity(), self.state())
 
     def restore(self, file: str | Path) -> None:
         """Continue from a saved state of the same scenario, seed and run.
 
         Raises
         ------
-        RecordError : no saved state, or one of something else
+        RecordError : no saved state, a damaged one, or one of something else
         """
-        try:
-            with Path(file).open("rb") as stream, np.load(stream) as state:
-                if str(state["identity"]) != self._identity():
-                    raise RecordError(
-                        str(file),
-                        f"was saved by {state['identity']}, this is {self._identity()}",
-                        "use the same scenario",
-                    )
-                saved = dict(state)  # read whole before anything is overwritten
-                number = int(saved["number"])
-                mine = dict(arrays_of(self._state))
-                for name, array in mine.items():
-                    if saved[name].shape != array.shape:
-                        raise ValueError(f"{name} has another shape")
-                for name, array in mine.items():
-                    array[...] = saved[name]
-                self.number = number
-                self._settle()
-        except (OSError, ValueError, KeyError, EOFError, BadZipFile) as error:
-            if isinstance(error, RecordError):
-                raise
-            raise RecordError(
-                str(file), f"is no saved state: {error}", "name a file made by Simulation.save"
-            ) from error
+        saved = read_state(file, self._identity(), self.state())  # read whole before anything is overwritten
+        for name, array in arrays_of(self._state):
+            array[...] = saved[name]
+        self.number = int(saved["number"])
+        self._settle()
 
     @property
     def radio(self) -> Any:

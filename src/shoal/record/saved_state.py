@@ -15,15 +15,15 @@ Arrays = Mapping[str, npt.NDArray[Any]]
 
 
 def write_state(file: str | Path, identity: str, arrays: Arrays) -> None:
-    """Write arrays and whose they are, whole or not at all.
+    """Write arrays and whose they are, whole or not at all; replace a saved state of this name.
 
     Raises
     ------
-    RecordError : it cannot be written
+    RecordError : it cannot be written, or something else is there
     """
     checksum = _sum_of(identity, arrays)
-    with whole_file(file) as partial, partial.open("wb") as stream:
-        np.savez(stream, identity=np.array(identity), sha256=np.array(checksum), **dict(arrays))  # type: ignore[arg-type]
+    with whole_file(file, ours=True) as partial, partial.open("wb") as stream:
+        np.savez(stream, shoal=np.array(identity), sha256=np.array(checksum), **dict(arrays))  # type: ignore[arg-type]
 
 
 def read_state(file: str | Path, identity: str, like: Arrays) -> dict[str, npt.NDArray[Any]]:
@@ -35,7 +35,7 @@ def read_state(file: str | Path, identity: str, like: Arrays) -> dict[str, npt.N
     """
     try:
         with Path(file).open("rb") as stream, np.load(stream) as state:
-            owner = str(state["identity"])
+            owner = str(state["shoal"])
             if owner != identity:
                 raise RecordError(str(file), f"was saved by {owner}, this is {identity}", "use the same scenario")
             saved = {}

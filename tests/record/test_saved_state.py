@@ -10,7 +10,7 @@ import pytest
 
 from damage import hurt_bytes
 from shoal.core.errors import RecordError
-from shoal.record.state import read_state, write_state
+from shoal.record.saved_state import read_state, write_state
 
 ARRAYS = {
     "x": np.linspace(-1.0, 1.0, 50),
@@ -42,6 +42,13 @@ def rewritten(file, **changes):
 def test_what_is_read_is_what_was_written(file):
     for name, values in read_state(file, "one of run 3", ARRAYS).items():
         assert (values.dtype, values.tobytes()) == (ARRAYS[name].dtype, ARRAYS[name].tobytes())
+
+
+def test_a_file_of_something_else_is_not_replaced(file):
+    np.savez(file, thesis=np.zeros(3))
+    with pytest.raises(RecordError, match="was not made by Shoal"):
+        write_state(file, "one of run 3", ARRAYS)
+    assert list(np.load(file)) == ["thesis"]
 
 
 def test_that_of_another_run_is_refused(file):
