@@ -136,7 +136,7 @@ def scaled(chosen, lengths=1.0, speeds=1.0, times=1.0):
 def _of_unit(unit, lengths, times):
     """How a number in this unit scales with all lengths and times."""
     powers = {"m/s": (1, -1), "s": (0, 1), "1/h": (0, -1), "1/s": (0, -1), "B/s": (0, -1)}
-    powers |= {"m^2/s": (2, -1), "m^3/s^3": (3, -3)}
+    powers |= {"m": (1, 0), "m^2/s": (2, -1), "m^3/s^3": (3, -3)}
     in_length, in_time = powers.get(unit, (0, 0))
     return lengths**in_length * times**in_time
 

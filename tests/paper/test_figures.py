@@ -7,14 +7,18 @@ import pytest
 
 from shoal.core.errors import MissingExtraError
 from shoal.drawing.files import save_figure
-from shoal.paper.figures import make_aamas_figures, make_figures
+from shoal.paper.figures import make_aamas_figures, make_figures, make_study_figures
 from shoal.paper.figures_series import TIME_ON_TARGET, plain_rows, series, spread, where
 from shoal.paper.plan import VARIANTS
 from shoal.paper.results import Reproduction
+from shoal.paper.side_plan import settings
 
 STEPS = 300
 KS = (2, 10, 15, 18, 20, 22, 25, 30, 40, 49)
-OCEANS = ["locked", "phi_histograms", "tot_share", "tot_k", "clustering", "xi_share", "xi_k"]
+SIDES = list(settings("oceans2020"))
+OCEANS = ["heading_bearing", "locked", "phi_histograms", "tot_share", "tot_k", "clustering", "xi_share", "xi_k"]
+
+REFIT = ["phi_histograms_refit", "tot_k_refit", "xi_k_refit", "sides"]
 
 
 def run_of(fast, k, speed, run, **more):
@@ -34,11 +38,15 @@ def oceans(runs=3, ks=KS, shares=(0, 10, 15, 30, 50), speeds=(3.0, 5.0), share_k
     points = {*product((0, 15), ks), *product(shares, share_ks)}
     main = [run_of(fast, k, speed, run) for fast, k in sorted(points) for speed in speeds for run in range(runs)]
     variants = [
-        run_of(fast, k, 3.0, run, variant=name)
-        for name, fast, k, run in product(VARIANTS, (0, 15), KS, range(runs))
+        run_of(fast, k, speed, run, variant=name)
+        for name, fast, k, speed, run in product(VARIANTS, (0, 15), KS, speeds, range(runs))
         if sensitivity
     ]
-    return Reproduction("oceans2020", True, STEPS, runs, main, variants)
+    sides = {
+        preset: [run_of(15, 20, speed, run, side=name) for name, speed, run in product(SIDES, speeds, range(runs))]
+        for preset in ("oceans2020", "oceans2020-refit")
+    }
+    return Reproduction("oceans2020", True, STEPS, runs, main, variants, refit=main, sides=sides)
 
 
 def aamas(published=True):
@@ -69,7 +77,7 @@ def figures():
 
 class TestFiguresOfThePaper:
     def test_all_are_there_in_its_order(self, figures):
-        assert list(figures) == [*OCEANS, "sensitivity"]
+        assert list(figures) == [*OCEANS, *REFIT, "sensitivity_3", "sensitivity_5"]
 
     def test_each_has_a_title_a_caption_and_its_numbers(self, figures):
         for figure in figures.values():
@@ -125,7 +133,7 @@ class TestNumbersBehindThem:
         assert sum(row["mean"] for row in data) == pytest.approx(50 * len(panels))
 
     def test_every_variant_has_its_peaks(self, figures):
-        data = where(figures["sensitivity"].data, fast=15, quantity="k* (time on target peaks)")
+        data = where(figures["sensitivity_3"].data, fast=15, quantity="k* (time on target peaks)")
         assert [row["variant"] for row in data] == list(VARIANTS)
         assert [row["value"] for row in data] == pytest.approx([18.0] * len(VARIANTS), abs=0.1)
 
@@ -146,7 +154,7 @@ class TestWhatIsLeftOut:
 
     def test_figures_without_rows(self):
         nothing = Reproduction("oceans2020", True, STEPS, 1, [], [])
-        assert [figure.name for figure in make_figures(nothing)] == ["locked", "clustering"]
+        assert [figure.name for figure in make_figures(nothing)] == ["heading_bearing", "locked", "clustering"]
         assert make_aamas_figures(nothing) == []
 
 
@@ -163,7 +171,8 @@ class TestLittleData:
     )
     def test_draws_what_there_is(self, little, missing, tmp_path):
         made = make_figures(little)
-        assert [figure.name for figure in made] == [name for name in OCEANS if name not in missing]
+        expected = [name for name in (*OCEANS, *REFIT) if name.removesuffix("_refit") not in missing]
+        assert [figure.name for figure in made] == expected
         for figure in made:
             figure.figure.draw_without_rendering()
 
@@ -197,3 +206,49 @@ class TestPublished:
         (figure,) = make_aamas_figures(aamas(published=False))
         figure.figure.draw_without_rendering()
         assert np.isfinite([row["mean"] for row in figure.data]).all()
+
+
+class TestReadings:
+    """The study's figures: a line per reading and stage."""
+
+    @pytest.fixture(scope="class")
+    @classmethod
+    def made(cls):
+        verdicts = dict(zip((f"C{number}" for number in range(1, 14)), ("holds", "holds partly") * 7, strict=False))
+        scores = [
+            {"reading": name, "stage": stage, "steps": 2000, "seeds": 2, **verdicts, "hold": 7, "score": 10.0,
+             "printed": name == "old", "chosen": name == "new"}
+            for stage, name in (("final", "new"), ("final", "old"), ("screen", "new"), ("screen", "old"))
+        ]  # fmt: skip
+        peaks = [
+            {"reading": row["reading"], "stage": row["stage"], "fast": fast, "target_speed": speed, "k_star": 18.0,
+             "k_star_low": 17.0, "k_star_high": 19.0, "xi_peak_k": 25.0, "xi_peak_k_low": 24.0, "xi_peak_k_high": 26.0}
+            for row, fast, speed in product(scores, (15, 0), (3.0, 5.0))
+        ]  # fmt: skip
+        study = Reproduction("oceans2020-readings", True, 2000, 2, [], [])
+        study.tables = {"readings_scores": scores, "readings_peaks": peaks}
+        return {figure.name: figure for figure in make_study_figures(study)}
+
+    def test_both_are_drawn_with_their_numbers(self, made):
+        assert list(made) == ["readings", "readings_peaks"]
+        assert len(made["readings"].data) == 4
+        assert len(made["readings_peaks"].data) == 4 * 3 * 2
+        for figure in made.values():
+            figure.figure.draw_without_rendering()
+            assert figure.figure.get_figwidth() <= 7.16
+
+    def test_the_chosen_one_is_bold_and_the_printed_one_named(self, made):
+        labels = made["readings"].figure.axes[0].get_yticklabels()
+        assert [label.get_fontweight() == "bold" for label in labels] == [True, False, True, False]
+        assert [label.get_text() for label in labels] == ["new", "old (printed)"] * 2
+
+    def test_without_readings_there_is_none(self):
+        study = Reproduction("oceans2020-readings", True, 2000, 2, [], [])
+        study.tables = {"readings_scores": [], "readings_peaks": []}
+        assert make_study_figures(study) == []
+
+
+def test_the_sketch_of_heading_and_bearing_tells_the_cosine(figures):
+    assert [row["phi"] for row in figures["heading_bearing"].data] == pytest.approx(
+        [math.cos(math.radians(row["angle [deg]"])) for row in figures["heading_bearing"].data]
+    )

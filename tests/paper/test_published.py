@@ -1,8 +1,11 @@
 """Our numbers beside the published ones: the bar, or the spread of runs where that is wider."""
 
+import numpy as np
 import pytest
 
 from paper_rows import made
+from scenarios import scenario
+from shoal.experiments.replicate import replicate
 from shoal.paper.published import NEIGHBORS, PUBLISHED, published_claims, residual_table
 
 
@@ -66,3 +69,20 @@ def test_the_claims_count_cells_and_name_the_worst():
     assert time_on_target.value == pytest.approx(0.2)
     assert "k = 19" in time_on_target.measured
     assert published_claims([]) == []
+
+
+# Heading-bearing correlation phi, mean agents per step in 11 bins from -1 to +1; same source, target at 3 m/s.
+HISTOGRAMS = {
+    10: (6.95, 4.33, 2.59, 1.86, 1.47, 16.80, 1.06, 0.98, 1.06, 1.85, 11.05),
+    49: (4.15, 3.09, 2.19, 1.84, 1.63, 2.30, 1.41, 1.42, 1.67, 3.19, 27.12),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("k", HISTOGRAMS)
+def test_the_published_histogram_is_met_within_half_an_agent_in_every_bin(k):
+    chosen = scenario("aamas2020", {"network.neighbors": k, "targets.0.speed": 3.0})
+    assert chosen.steps == 100_000
+    ours = np.array(replicate(chosen, 0)["phi_histogram"])
+    assert ours == pytest.approx(np.array(HISTOGRAMS[k]), abs=0.5)
+    assert ours.sum() == pytest.approx(50.0)

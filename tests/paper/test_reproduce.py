@@ -10,7 +10,8 @@ from shoal.experiments.design import Design, grid
 from shoal.experiments.results import read_rows
 from shoal.paper import reproduce as module
 from shoal.paper.plan import Group, Plan
-from shoal.paper.reproduce import reproduce, run_plan
+from shoal.paper.reproduce import reproduce
+from shoal.paper.running import run_plan
 
 STEPS = {"steps": 200}
 
@@ -36,6 +37,10 @@ def tiny(paper, *, quick=False):
         (
             Group("main", Design("oceans2020", main, 2), STEPS),
             Group("placement", Design("oceans2020", start, 2), STEPS),
+            Group("side/as-it-is", Design("oceans2020", curves, 2), STEPS, {"side": "as it is"}),
+            Group("refit/main", Design("oceans2020-refit", main, 2), STEPS),
+            Group("refit/placement", Design("oceans2020-refit", start, 2), STEPS),
+            Group("refit/side/as-it-is", Design("oceans2020-refit", curves, 2), STEPS, {"side": "as it is"}),
             Group("sensitivity/baseline", Design("oceans2020", curves, 2), STEPS, {"variant": "baseline"}),
             Group(
                 "sensitivity/omega",
@@ -54,12 +59,19 @@ def _tiny_and_without_pictures(monkeypatch):
     monkeypatch.setattr(module, "_write", lambda found, out: None)
 
 
-def test_oceans_gives_thirteen_claims_the_tables_and_all_rows(tmp_path):
+def test_oceans_gives_every_claim_under_both_readings_the_tables_and_all_rows(tmp_path):
     found = reproduce("oceans2020", tmp_path, jobs=2)
-    assert [claim.id for claim in found.claims] == [f"C{number}" for number in range(1, 14)]
-    assert (len(found.main), len(found.sensitivity)) == (64, 32)
+    for claims in (found.claims, found.refit_claims):
+        assert [claim.id for claim in claims] == [f"C{number}" for number in range(1, 29)]
+    assert (len(found.main), len(found.refit), len(found.sensitivity)) == (64, 64, 32)
+    assert {name: len(rows) for name, rows in found.sides.items()} == {"oceans2020": 16, "oceans2020-refit": 16}
     assert {row["variant"] for row in found.sensitivity} == {"baseline", "omega"}
-    assert {"peaks", "sensitivity_peaks", "sensitivity_conclusions"} <= set(found.tables)
+    assert {"peaks", "refit_peaks", "sensitivity_peaks", "sensitivity_conclusions"} <= set(found.tables)
+    verdicts = [(row["claim"], row["oceans2020"], row["oceans2020-refit"]) for row in found.tables["verdicts"]]
+    assert verdicts == [
+        (one.id, one.verdict, other.verdict) for one, other in zip(found.claims, found.refit_claims, strict=True)
+    ]
+    assert [row["depends"] for row in found.tables["verdicts"]] == [one != other for _, one, other in verdicts]
     assert found.command == f"shoal reproduce oceans2020 --out {tmp_path} --jobs 2"
     assert found.versions["shoal"]
     assert (tmp_path / "runs" / "sensitivity" / "omega" / "results.csv").is_file()
@@ -86,7 +98,7 @@ def test_the_same_numbers_come_again_and_nothing_runs_twice(tmp_path):
 def test_progress_counts_the_runs_of_all_sweeps_together(tmp_path):
     seen = []
     run_plan(tiny("oceans2020"), tmp_path, report=lambda now: seen.append((now.before + now.done, now.total)))
-    assert seen == [(number, 100) for number in range(1, 101)]
+    assert seen == [(number, 200) for number in range(1, 201)]
 
 
 def test_interrupted_it_keeps_what_is_done_and_goes_on_from_there(tmp_path):
@@ -99,7 +111,7 @@ def test_interrupted_it_keeps_what_is_done_and_goes_on_from_there(tmp_path):
     seen = []
     reproduce("oceans2020", tmp_path, report=lambda now: seen.append((now.before, now.done, now.total)))
     assert seen[0][0] + seen[0][1] >= 70
-    assert sum(seen[-1][:2]) == seen[-1][2] == 100
+    assert sum(seen[-1][:2]) == seen[-1][2] == 200
 
 
 def test_failed_runs_are_tried_again(tmp_path, monkeypatch):

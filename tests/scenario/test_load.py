@@ -11,7 +11,7 @@ from shoal.core.errors import ScenarioError, StrategyError
 from shoal.scenario.load import load, preset_text, presets, read_table, scenario_from, to_toml
 from shoal.scenario.schema import Scenario, json_schema
 
-PRESETS = ["aamas2020", "aamas2020-constant", "oceans2020"]
+PRESETS = ["aamas2020", "aamas2020-constant", "oceans2020", "oceans2020-refit"]
 
 
 def written(folder, text):

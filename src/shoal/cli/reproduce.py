@@ -11,6 +11,8 @@ from shoal.cli.sweep_progress import sweep_progress
 from shoal.cli.whole import MaybeWhole
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from shoal.paper.results import Reproduction
 
 
@@ -19,6 +21,7 @@ def reproduce(
     /,
     *,
     quick: Annotated[bool, Parameter(negative=())] = False,
+    readings: Annotated[bool, Parameter(negative=())] = False,
     out: Path | None = None,
     jobs: MaybeWhole = None,
 ) -> None:
@@ -30,8 +33,10 @@ def reproduce(
         oceans2020 or aamas2020.
     quick
         20,000 steps, 2 seeds and fewer k instead of 100,000 steps and 5 seeds: minutes instead of half an hour.
+    readings
+        Of oceans2020: how much of the paper each of 30 readings of it meets, and which meets most.
     out
-        Folder of the report and of all runs; default reproduction-PAPER, with --quick reproduction-PAPER-quick.
+        Folder of the report and of all runs; default reproduction-PAPER, then -readings, -quick with these options.
     jobs
         Threads, one run each; default one per core.
     """
@@ -39,13 +44,13 @@ def reproduce(
     from shoal.paper.reproduce import reproduce as run_all
 
     check_positive(jobs=jobs)
-    folder = out or Path(f"reproduction-{paper}{'-quick' if quick else ''}")
+    folder = out or Path(f"reproduction-{paper}{'-readings' if readings else ''}{'-quick' if quick else ''}")
     with sweep_progress(folder) as report:
-        found = run_all(paper, folder, quick=quick, jobs=jobs, report=report)
-    failed = [row for row in (*found.main, *found.sensitivity) if row["status"] == "failed"]
+        found = run_all(paper, folder, quick=quick, readings=readings, jobs=jobs, report=report)
+    failed = [row for row in (*found.main, *found.refit, *found.sensitivity) if row["status"] == "failed"]
     if failed:
         note(f"{len(failed)} runs failed, the first: {failed[0]['error']}\n  fix: mend it, then the same command again")
-    _print_claims(found)
+    (_print_readings if readings else _print_claims)(found)
     write(f"report: {folder / 'report.html'}\n")
 
 
@@ -56,11 +61,39 @@ def _print_claims(found: "Reproduction") -> None:
 
     console = results_console()
     table = Table(box=None, padding=(0, 2, 0, 0))
-    for title in ("", "verdict", "claim, and what was measured"):
+    names = ["as printed", "refit"] if found.refit_claims else ["verdict"]
+    for title in ("", *names, "claim, and what was measured"):
         table.add_column(title)
+    others = {claim.id: claim for claim in found.refit_claims}
     for claim in found.claims:
-        verdict = small_print(claim.verdict, claim.cases.replace(", ", "\n"))
-        table.add_row(claim.id, verdict, small_print(claim.statement, claim.measured))
+        told = [claim, *([others[claim.id]] if claim.id in others else [])]
+        verdicts = [small_print(each.verdict, each.cases.replace(", ", "\n")) for each in told]
+        measured = "\nrefit: ".join(each.measured for each in told)
+        table.add_row(claim.id, *verdicts, small_print(claim.statement, measured))
     console.print(table)
+    differ = [claim.id for claim in found.claims if claim.id in others and claim.verdict != others[claim.id].verdict]
+    if others:
+        console.print(f"verdicts that depend on the reading: {', '.join(differ) or 'none'}")
+    _print_length(console, found)
+
+
+def _print_readings(found: "Reproduction") -> None:
+    from rich.table import Table
+
+    from shoal.cli.console import results_console
+
+    console = results_console()
+    table = Table(box=None, padding=(0, 2, 0, 0))
+    scores = found.tables["readings_scores"]
+    for title in ("reading", "stage", "hold", "do not", "score", ""):
+        table.add_column(title)
+    for row in scores:
+        mark = "chosen" if row["chosen"] else "as printed" if row["printed"] else ""
+        table.add_row(row["reading"], row["stage"], str(row["hold"]), str(row["do_not"]), f"{row['score']:g}", mark)
+    console.print(table)
+    _print_length(console, found)
+
+
+def _print_length(console: "Console", found: "Reproduction") -> None:
     length = f"{found.seeds} seeds of {found.steps:,} steps"
     console.print(f"{found.paper}, {length}; in brackets 95 % intervals; {found.seconds:.0f} s", style="dim")

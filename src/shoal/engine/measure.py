@@ -1,6 +1,7 @@
 """When each metric is counted within a step."""
 
 from shoal.compiler.kernel import kernel
+from shoal.metrics.closest import tally_closest
 from shoal.metrics.contacts import tally_contacts
 from shoal.metrics.coverage import tally_coverage
 from shoal.metrics.effort import tally_effort
@@ -12,7 +13,7 @@ from shoal.metrics.velocity_fluctuation import tally_velocity_fluctuation
 
 @kernel
 def measure_before_move(tally, batch, world, swarm, targets, counts, number, scratch):
-    """What is true at the start of a step: who is on target, how velocities differ, who watches where.
+    """What is true at the start of a step: who is on target, how velocities differ, who watches where, who is close.
 
     counts : how many agents are on a target, and how many are there
     """
@@ -21,6 +22,7 @@ def measure_before_move(tally, batch, world, swarm, targets, counts, number, scr
     tally_contacts(tally, batch, targets)
     tally_velocity_fluctuation(tally, batch, swarm, world.agents, active, scratch.a)
     tally_coverage(tally, batch, world, swarm, number)
+    tally_closest(tally, batch, swarm, world.agents, number)
 
 
 @kernel

@@ -14,7 +14,7 @@ from shoal.record.statistics import Estimate, estimate
 
 Values = Mapping[str, npt.NDArray[np.float64]]  # of each strategy in each run, (R,); NaN where a run has none
 
-_MORE_IS_BETTER = ("time_on_target", "targets_observed", "fairness", "engaged", "coverage", "coverage_rate")
+_MORE_IS_BETTER = ("time_on_target", "targets_observed", "fairness", "engaged", "coverage", "coverage_rate", "closest")
 _LESS_IS_BETTER = ("first_detection", "losses", "reacquisition", "messages", "bandwidth", "power")
 
 

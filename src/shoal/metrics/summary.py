@@ -172,6 +172,12 @@ METRICS: dict[str, Metric] = {
         "area that agents newly pass through per second, over 100 steps",
         lambda t, f: _share(t.swept, t.sweeps) * f.area / (100 * f.time_step),
     ),
+    "closest": Metric(
+        "m",
+        "smallest distance between two agents, looked at every 25 steps; of one run, and the longer the smaller",
+        lambda t, f: float(np.sqrt(t.closest.min())) if np.isfinite(t.closest.min()) else float("nan"),
+        once=True,
+    ),
     "components": Metric(
         "1",
         "parts that the network falls into (synchronous order)",

@@ -32,6 +32,7 @@ class Tally(NamedTuple):
     graphs, components, clustering : (B,) looks at the graph, and sums over them
     windows, covered, sweeps, swept : (B,) coverage windows ended and begun, and sums over them, see coverage.py
     distance [m], cubes [m^3/s^2] : (B, N), see effort.py
+    closest : (B,) [m^2] no sum but the least square of a distance between two agents, see closest.py
     seen : (1, cells) the state of the coverage grid, no sum
     """
 
@@ -63,6 +64,7 @@ class Tally(NamedTuple):
     swept: Floats
     distance: Floats
     cubes: Floats
+    closest: Floats
     seen: npt.NDArray[np.int64]
 
 
@@ -86,6 +88,7 @@ def new_tally(steps: int, batches: int, fleets: int, agents: int, targets: int) 
         timeline_on_target=np.zeros((batches, WINDOWS)),
         distance=np.zeros((batches, agents)),
         cubes=np.zeros((batches, agents)),
+        closest=np.full(batches, np.inf),
         seen=np.zeros((1, CELLS * CELLS), np.int64),
         **{name: np.zeros(batches) for name in _PLAIN},
     )

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from shoal.experiments.design import Point
 from shoal.paper.curves import Floats
 from shoal.record.trajectory import Trajectory
 from shoal.run.facts import facts_of
@@ -25,9 +26,11 @@ class Episode(NamedTuple):
     dispersed: bool
 
 
-def watch_clusters(steps: int, runs: int, target_speeds: tuple[float, ...]) -> list[Episode]:
-    """Return the episodes in runs of the paper's mixed swarm (k = 20)."""
-    table = read_table("oceans2020")
+def watch_clusters(
+    steps: int, runs: int, target_speeds: tuple[float, ...], changes: Point | None = None, preset: str = "oceans2020"
+) -> list[Episode]:
+    """Return the episodes in runs of the paper's mixed swarm (k = 20), with changes to the preset."""
+    table = apply(read_table(preset), changes or {})
     found = []
     for speed in target_speeds:
         scenario = scenario_from(apply(table, {"target_speed": speed, "steps": steps}))

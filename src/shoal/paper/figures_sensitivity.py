@@ -11,7 +11,6 @@ from shoal.paper.figures_series import (
     TIME_ON_TARGET,
     XI,
     Quantity,
-    levels,
     limits,
     plain_rows,
     swarm_text,
@@ -28,12 +27,13 @@ _PANELS: tuple[tuple[Quantity, str, str], ...] = (
 )
 
 
-def sensitivity_figure(rows: Sequence[Row]) -> Figure | None:
-    """Draw the peaks of every variant, a line each, mixed and all-slow swarm; the first variant's as vertical lines.
+def sensitivity_figure(rows: Sequence[Row], speed: float) -> Figure | None:
+    """Draw the peaks of every variant, a line each, mixed and all-slow swarm, for a target of this speed [m/s]; the
+    first variant's as vertical lines.
 
     Returns None where no variant has a peak.
     """
-    rows = plain_rows(rows)
+    rows = where(plain_rows(rows), target_speed=speed)
     names = list(dict.fromkeys(row["variant"] for row in rows if row.get("variant")))
     peaks = {
         (name, fast, quantity.column): peak
@@ -78,11 +78,11 @@ def sensitivity_figure(rows: Sequence[Row]) -> Figure | None:
     caption = (
         "What the paper does not say, decided the other way, one choice at a time: where time on target and Ξ peak "
         f"over k then, and how high time on target gets, with 95 % intervals over {seeds} seeds, for a target of "
-        f"{' and '.join(f'{speed:g}' for speed in levels(rows, 'target_speed'))} m/s. Dashed lines: {names[0]}, the "
+        f"{speed:g} m/s. Dashed lines: {names[0]}, the "
         "paper as printed. Hollow: a peak at the edge of the k that were run. A "
         "conclusion depends on a choice where its dots leave the dashed lines."
     )
-    return Figure("sensitivity", "What the paper does not say", caption, figure, data)
+    return Figure(f"sensitivity_{speed:g}", f"What the paper does not say, target {speed:g} m/s", caption, figure, data)
 
 
 def _signs() -> list[Any]:

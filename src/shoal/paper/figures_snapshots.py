@@ -19,11 +19,10 @@ if TYPE_CHECKING:
 _RUN = 0
 _TRAIL = 30  # steps of the target's trail, a third of it for the buoys'
 _AROUND = 300  # steps of the distance shown before and after the two moments
-_EDGE = 1e-6  # [m] from the line that agents are kept inside of
 
 
 def locked_figure(record: Record) -> Figure:
-    """Draw the frame with the most locked agents, each in a square."""
+    """Draw the frame with the most agents locked inside the area, each in a square."""
     found = find_locked(record, _RUN)
     frames = record.trajectories[_RUN]
     x, y = frames.x[found.frame], frames.y[found.frame]
@@ -127,18 +126,16 @@ def _frame_rows(record: Record, frame: int, labels: dict[str, Any], **flags: Any
 
 
 def _locked_caption(record: Record, found: Locked) -> str:
-    frames, area = record.trajectories[_RUN], record.scenario["area"]
-    edge = area["width"] / 2 - area["agent_margin"] - _EDGE
-    at_edge = np.maximum(np.abs(frames.x[found.frame]), np.abs(frames.y[found.frame])) >= edge
+    frames = record.trajectories[_RUN]
     locked, on_target = int(found.locked.sum()), int(frames.on_target[found.frame].sum())
-    there = int((found.locked & at_edge).sum())
-    edge_text = f"{'all' if there == locked else there} of them at the dashed line that no buoy crosses"
+    there = int((found.locked & ~found.inside).sum())
+    edge_text = f"{'all' if there == locked else there or 'none'} of them at the line that no buoy crosses"
     return (
         f"{_swarm(record)}. Squares: buoys that have heard of no target for so long that their repulsion a_R is at its "
         f"maximum; {locked} of these {int(found.pushing.sum())} are locked (dark squares: slower than a tenth of their "
         f"top speed), {edge_text}, while "
         f"{on_target} {'is' if on_target == 1 else 'are'} on target. Of {count(frames.step.size)} steps this is the "
-        "first with the most locked buoys while others are on target. "
+        "first with the most buoys locked inside the area while others are on target. "
         f"Lines: the last {_TRAIL} steps of the target, {_TRAIL // 3} of the buoys."
     )
 

@@ -6,8 +6,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from shoal.experiments.design import Design, Point, grid
+from shoal.paper.side_plan import BASE, MEMORY, UNREPELLED, settings
 
 PAPERS = ("oceans2020", "aamas2020")
+PRINTED, REFIT = "oceans2020", "oceans2020-refit"  # the paper to the letter; the reading that meets most of it
 FULL_STEPS, QUICK_STEPS = 100_000, 20_000
 SPEEDS = (3.0, 5.0)  # of the target [m/s]
 AGENTS, MIXED = 50, 15  # buoys, and fast ones among them in the paper's mixed swarm
@@ -17,8 +19,9 @@ START_PLACES = ("corner", "center")
 # Every k where the curves peak: between points a curve can bend unseen, and its peak's interval grows (peaks.py).
 _NEIGHBORS = (*range(2, 14, 2), *range(14, 31), 32, 34, 36, 38, 40, 42, 44, 46, 48, 49)
 _NEIGHBORS_QUICK = (2, 6, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30, 34, 40, 49)
-_SENSITIVITY_NEIGHBORS = (8, 12, 15, 18, 21, 24, 27, 30, 35, 42)
-_SENSITIVITY_NEIGHBORS_QUICK = (8, 14, 16, 19, 22, 25, 28, 34)
+_SENSITIVITY_NEIGHBORS = (10, 14, 17, 20, 23, 26, 30, 34, 40, 49)
+_SENSITIVITY_NEIGHBORS_QUICK = (10, 15, 20, 25, 30, 35, 40, 49)
+_SENSITIVITY_SHARES = (30, AGENTS)
 _PUBLISHED_NEIGHBORS = tuple(range(10, 50, 3))
 
 # What the paper leaves open (docs/paper-notes.md), each decided the other way.
@@ -31,9 +34,11 @@ VARIANTS: dict[str, Point] = {
     "sequential update": {"motion.update_order": "sequential"},
     "follow lowest index": {"strategy.follow": "lowest-index"},
     "boundary 10": {"area.agent_margin": 0.0},
-    "speed divided, 1/5 steps": {"motion.speed_rule": "divide"},  # buoys jam in corners: clear soon, and slow to run
+    "boundary 10, waypoints in 9": {"area.agent_margin": 0.0, "targets.0.margin": 1.0},
+    "speed divided, 1/2 steps": {"motion.speed_rule": "divide"},  # buoys jam in corners: clear soon, and slow to run
     "r per axis": {"strategy.social_draws": "per-axis"},
     "start in a corner": {"fleets.BoB-0.start": "corner", "fleets.BoB-1.start": "corner"},
+    "target walks": {"targets": [{"kind": "walk", "radius": 1.0, "speed": 3.0, "margin": 2.0, "persistence": 10.0}]},
 }
 
 
@@ -71,35 +76,57 @@ def make_plan(paper: str, *, quick: bool = False) -> Plan:
 
 
 def _oceans2020(quick: bool, steps: int, seeds: int) -> list[Group]:
-    """The curves over k and over the share of fast buoys; other starts of the fast fleet; and every variant."""
+    """Under both readings the curves over k and over the share of fast buoys, other starts of the fast fleet, and what
+    the paper says besides; and every variant of the printed one.
+    """
     fast = range(0, AGENTS + 1, 10) if quick else range(0, AGENTS + 1, 5)
     main = [
         *_curves(_NEIGHBORS_QUICK if quick else _NEIGHBORS, SPEEDS),
         *grid({"target_speed": SPEEDS, "fast": [*fast, MIXED], "neighbors": SHARE_NEIGHBORS}),
     ]
     placement = grid({"target_speed": SPEEDS, "fast": [MIXED], "neighbors": [20], "fleets.BoB-1.start": START_PLACES})
-    return [
-        Group("main", Design("oceans2020", _distinct(main), seeds), {"steps": steps}),
-        Group("placement", Design("oceans2020", _distinct(placement), seeds), {"steps": steps}),
-        *_variants(_SENSITIVITY_NEIGHBORS_QUICK if quick else _SENSITIVITY_NEIGHBORS, steps, min(seeds, 3)),
-    ]
+    groups = []
+    for preset, prefix in ((PRINTED, ""), (REFIT, "refit/")):
+        groups += [
+            Group(f"{prefix}main", Design(preset, distinct(main), seeds), {"steps": steps}),
+            Group(f"{prefix}placement", Design(preset, distinct(placement), seeds), {"steps": steps}),
+            *_sides(preset, QUICK_STEPS // 4 if quick else QUICK_STEPS, seeds, prefix),
+        ]
+    neighbors = _SENSITIVITY_NEIGHBORS_QUICK if quick else _SENSITIVITY_NEIGHBORS
+    return [*groups, *_variants(neighbors, steps // 4 if quick else 2 * steps // 5, min(seeds, 3))]
+
+
+def _sides(preset: str, steps: int, seeds: int, prefix: str) -> list[Group]:
+    """One group per setting, at both target speeds and k = 20; three of them at every k of the shares."""
+    groups = []
+    for name, changes in settings(preset).items():
+        fast = [MIXED, 0] if name == BASE or name.startswith("start") else [MIXED]
+        neighbors = SHARE_NEIGHBORS if name in (BASE, MEMORY, UNREPELLED) else (20,)
+        vary: dict[str, Sequence[Any]] = {"target_speed": SPEEDS, "fast": fast, "neighbors": neighbors}
+        labels: dict[str, Any] = {"side": name}
+        if "agents" in changes:  # another number keeps the shares of the fleets
+            labels["fast"] = vary.pop("fast")[0]
+        design = Design(preset, distinct(grid(vary)), seeds)
+        groups.append(Group(f"{prefix}side/{_slug(name)}", design, {"steps": steps, **changes}, labels))
+    return groups
 
 
 def _aamas2020(quick: bool, steps: int, seeds: int) -> list[Group]:
     """The predecessor's curves over k, with adaptive and with constant repulsion."""
-    points = _distinct(grid({"neighbors": _PUBLISHED_NEIGHBORS}))
+    points = distinct(grid({"neighbors": _PUBLISHED_NEIGHBORS}))
     presets = ("aamas2020", "aamas2020-constant")
     return [Group(name, Design(name, points, seeds), {"steps": steps}, {"preset": name}) for name in presets]
 
 
 def _variants(neighbors: Sequence[int], steps: int, seeds: int) -> list[Group]:
     """One group each: its change is to the base scenario, before `fast` = 0 removes a fleet."""
-    points = _distinct(_curves(neighbors, SPEEDS[:1]))
+    shares = grid({"target_speed": SPEEDS, "fast": _SENSITIVITY_SHARES, "neighbors": SHARE_NEIGHBORS})
+    points = distinct([*_curves(neighbors, SPEEDS), *shares])
     return [
         Group(
-            f"sensitivity/{re.sub('[^a-z0-9.]+', '-', name)}",
-            Design("oceans2020", points, seeds),
-            {"steps": steps // 5 if "1/5 steps" in name else steps, **changes},
+            f"sensitivity/{_slug(name)}",
+            Design(PRINTED, points, seeds),
+            {"steps": steps // 2 if "1/2 steps" in name else steps, **changes},
             {"variant": name},
         )
         for name, changes in VARIANTS.items()
@@ -111,5 +138,11 @@ def _curves(neighbors: Sequence[int], speeds: Sequence[float]) -> list[Point]:
     return grid({"target_speed": speeds, "fast": [MIXED, 0], "neighbors": neighbors})
 
 
-def _distinct(points: Sequence[Point]) -> tuple[Point, ...]:
+def distinct(points: Sequence[Point]) -> tuple[Point, ...]:
+    """Each point once, in order."""
     return tuple({tuple(point.items()): point for point in points}.values())
+
+
+def _slug(name: str) -> str:
+    """For a folder."""
+    return re.sub("[^a-z0-9.]+", "-", name.lower())

@@ -5,7 +5,7 @@ import csv
 import io
 import math
 import shlex
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, fields
 from pathlib import Path
 
@@ -35,7 +35,7 @@ def write_report(reproduction: Reproduction, out: str | Path) -> Path:
     pictures = [_write_figure(figure, folder) for figure in reproduction.figures]
     for name, rows in reproduction.tables.items():
         write_whole(folder / "data" / f"table_{name}.csv", to_csv(rows).encode())
-    write_whole(folder / "claims.csv", _claims_csv(reproduction.claims).encode())
+    write_whole(folder / "claims.csv", _claims_csv(reproduction).encode())
     write_whole(folder / "command.txt", _command_text(reproduction).encode())
     report = folder / "report.html"
     write_whole(report, page(reproduction, pictures, _stores(folder)).encode())
@@ -69,8 +69,11 @@ def _write_figure(figure: Figure, folder: Path) -> Picture:
     return Picture(figure, source, float(width), float(height))
 
 
-def _claims_csv(claims: Iterable[Claim]) -> str:
-    rows = [asdict(claim) for claim in claims]
+def _claims_csv(reproduction: Reproduction) -> str:
+    """A row per claim, the columns refit_... of the other reading behind the others."""
+    rows = [asdict(claim) for claim in reproduction.claims]
+    for row, other in zip(rows, reproduction.refit_claims, strict=bool(reproduction.refit_claims)):
+        row |= {f"refit_{name}": value for name, value in asdict(other).items() if name not in ("id", "statement")}
     return to_csv(rows) if rows else ",".join(field.name for field in fields(Claim)) + "\n"
 
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from shoal.paper.report_style import CSS
 from shoal.paper.report_tables import BADGES, claims_table, data_table
 from shoal.paper.report_words import METHOD, QUICK, TABLES, TITLES
-from shoal.paper.results import Figure, Reproduction
+from shoal.paper.results import Claim, Figure, Reproduction
 
 _PIXELS = 96.0  # to the inch, on a screen
 _NARROW = 480.0  # [px] wider pictures are moved sideways on a phone, rather than shrunk until nobody can read them
@@ -52,25 +52,40 @@ def _warning(reproduction: Reproduction) -> str:
 
 
 def _summary(reproduction: Reproduction) -> str:
-    """How many claims hold."""
+    """How many claims hold, under each reading."""
     if not reproduction.claims:
         return ""
-    counts = Counter(str(claim.verdict) for claim in reproduction.claims)
+    told = f"Of {len(reproduction.claims)} claims of the paper, tested with 95 % intervals"
+    if not reproduction.refit_claims:
+        return _tiles(f"{told}:", reproduction.claims)
+    differ = [
+        one.id
+        for one, other in zip(reproduction.claims, reproduction.refit_claims, strict=True)
+        if one.verdict != other.verdict
+    ]
+    return (
+        _tiles(f"{told}, with the paper as printed (oceans2020):", reproduction.claims)
+        + _tiles("and in the reading that meets most of it (oceans2020-refit):", reproduction.refit_claims)
+        + f"<p>Verdicts that depend on the reading: {', '.join(differ) or 'none'}.</p>\n"
+    )
+
+
+def _tiles(told: str, claims: Sequence[Claim]) -> str:
+    """A count for each verdict."""
+    counts = Counter(str(claim.verdict) for claim in claims)
     tiles = "".join(
         f'<li><b>{counts[verdict]}</b><span class="badge {name}"><span aria-hidden="true">{sign}</span> '
         f"{escape(verdict)}</span></li>"
         for verdict, (sign, name) in BADGES.items()
     )
-    return (
-        f"<p>Of {len(reproduction.claims)} claims of the paper, tested with 95 % intervals:</p>\n"
-        f'<ul class="counts">{tiles}</ul>\n'
-    )
+    return f'<p>{escape(told)}</p>\n<ul class="counts">{tiles}</ul>\n'
 
 
 def _facts(reproduction: Reproduction) -> str:
     """What was run."""
-    runs = sum(row.get("status", "done") == "done" for row in (*reproduction.main, *reproduction.sensitivity))
-    failed = len(reproduction.main) + len(reproduction.sensitivity) - runs
+    rows = [*reproduction.main, *reproduction.refit, *reproduction.sensitivity]
+    runs = sum(row.get("status", "done") == "done" for row in rows)
+    failed = len(rows) - runs
     versions = ", ".join(f"{name} {version}" for name, version in reproduction.versions.items())
     facts = {
         "Command": f"<code>{escape(reproduction.command)}</code>" if reproduction.command else "",
@@ -82,13 +97,13 @@ def _facts(reproduction: Reproduction) -> str:
         else "",
         "Versions": escape(versions),
     }
-    rows = "".join(f"<dt>{name}</dt><dd>{text}</dd>" for name, text in facts.items() if text)
-    return f'<dl class="facts">{rows}</dl>\n'
+    listed = "".join(f"<dt>{name}</dt><dd>{text}</dd>" for name, text in facts.items() if text)
+    return f'<dl class="facts">{listed}</dl>\n'
 
 
 def _claims(reproduction: Reproduction, pictures: Sequence[Picture]) -> str:
     titles = {picture.figure.name: picture.figure.title for picture in pictures}
-    return claims_table(reproduction.claims, titles) if reproduction.claims else ""
+    return claims_table(reproduction.claims, titles, reproduction.refit_claims) if reproduction.claims else ""
 
 
 def _picture(reproduction: Reproduction, picture: Picture) -> str:

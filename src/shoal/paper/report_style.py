@@ -59,6 +59,10 @@ table.claims th:nth-child(1) { width: 3.5em; }
 table.claims th:nth-child(2) { width: 27%; }
 table.claims th:nth-child(4) { width: 9.5em; }
 table.claims th:nth-child(5) { width: 17%; }
+table.both th:nth-child(2) { width: 20%; }
+table.both th:nth-child(3), table.both th:nth-child(4) { width: 32%; }
+table.both th:nth-child(5) { width: auto; }
+td .measured { display: block; margin-top: .3rem; }
 th.number { white-space: normal; }
 .scroll table { font-size: .8rem; }
 .scroll th, .scroll td { padding: .35rem .4rem; }

@@ -24,8 +24,13 @@ def badge(verdict: str) -> str:
     return f'<span class="badge {name}"><span aria-hidden="true">{sign}</span> {escape(verdict)}</span>'
 
 
-def claims_table(claims: Sequence[Claim], titles: Mapping[str, str]) -> str:
-    """The claims with what was measured and the verdict; `titles` are those of the figures in the report, by name."""
+def claims_table(claims: Sequence[Claim], titles: Mapping[str, str], refit: Sequence[Claim] = ()) -> str:
+    """The claims with what was measured and the verdict; `titles` are those of the figures in the report, by name.
+
+    With the claims under another reading, `refit`, both stand side by side.
+    """
+    if refit:
+        return _two_readings(claims, refit, titles)
     rows = "".join(_claim_row(claim, titles) for claim in claims)
     return (
         '<table class="claims"><thead><tr><th>Claim</th><th>What the paper says</th>'
@@ -43,6 +48,33 @@ def _claim_row(claim: Claim, titles: Mapping[str, str]) -> str:
         f'<td data-label="Figure: ">{_figure_link(claim.figure, titles)}</td>',
     )
     return f'<tr id="claim-{escape(claim.id)}">{"".join(cells)}</tr>\n'
+
+
+def _two_readings(claims: Sequence[Claim], refit: Sequence[Claim], titles: Mapping[str, str]) -> str:
+    """What the runs say under either reading; verdicts that differ are marked."""
+    rows = "".join(
+        f'<tr id="claim-{escape(one.id)}"><td>{escape(one.id)}</td>'
+        f'<td data-label="Paper: ">{tidy(one.statement)}'
+        f"{'' if one.verdict == other.verdict else DEPENDS}</td>"
+        f'<td data-label="As printed: ">{_runs(one)}</td><td data-label="Refit: ">{_runs(other)}</td>'
+        f'<td data-label="Figure: ">{_figure_link(one.figure, titles)}</td></tr>\n'
+        for one, other in zip(claims, refit, strict=True)
+    )
+    return (
+        '<table class="claims both"><thead><tr><th>Claim</th><th>What the paper says</th><th>As printed (oceans2020)'
+        "</th><th>The reading that meets most (oceans2020-refit)</th><th>Read from</th></tr></thead>\n"
+        f"<tbody>\n{rows}</tbody></table>"
+    )
+
+
+DEPENDS = '<span class="key">The verdict depends on the reading.</span>'
+
+
+def _runs(claim: Claim) -> str:
+    return (
+        f'{badge(claim.verdict)}<span class="key">{escape(claim.cases)}</span>'
+        f'<span class="measured">{tidy(claim.measured)}</span><span class="key">{key_number(claim)}</span>'
+    )
 
 
 def key_number(claim: Claim) -> str:

@@ -1,6 +1,6 @@
 """What the report says in full sentences."""
 
-from shoal.paper import cases
+from shoal.paper import cases, readings, readings_study, statements
 from shoal.paper.curves import FEW
 from shoal.paper.published import BARS
 
@@ -8,6 +8,11 @@ TITLES = {
     "oceans2020": (
         "Reproduction: Heterogeneous Swarms for Maritime Dynamic Target Search and Tracking",
         "Every figure and claim of Kwa, Tokić, Yue and Bouffanais, OCEANS 2020, simulated again with Shoal.",
+    ),
+    "oceans2020-readings": (
+        "Which reading of the paper? Heterogeneous Swarms for Maritime Dynamic Target Search and Tracking",
+        "What Kwa, Tokić, Yue and Bouffanais, OCEANS 2020, leave open, read in every defensible way, and how much of "
+        "the paper each reading meets.",
     ),
     "aamas2020": (
         "Reproduction: Optimal Swarm Strategy for Dynamic Target Search and Tracking",
@@ -23,7 +28,13 @@ QUICK = (
 TABLES = {
     "peaks": "Where the curves over k peak, and how high they are there",
     "sensitivity_peaks": "The same with what the paper leaves open decided the other way, one choice at a time",
-    "sensitivity_conclusions": "Verdicts on C3 to C6 under each of these choices, and which of them change",
+    "sensitivity_conclusions": "Verdicts on C1 to C10 under each of these choices, and which of them change",
+    "verdicts": "The verdicts under both readings, and which depend on the reading",
+    "refit_peaks": "The same under oceans2020-refit",
+    "readings_scores": "Every reading: its verdicts, how many statements hold, and its score",
+    "readings": "Every statement at each target speed under each reading: the number that speaks most against it",
+    "readings_peaks": "Where the curves over k peak under each reading",
+    "frontier": "Statements that hold under some reading each, but under none together; and those that hold under none",
     "published": "Measured and published values of the homogeneous predecessor, in the units of the metrics",
 }
 
@@ -49,7 +60,18 @@ _SEEDS = (
 
 _RULE = " ".join((cases.__doc__ or "").split("\n\n", 1)[-1].split())  # said once, beside the code that applies it
 
+
+def _rules(*docs: str | None) -> list[str]:
+    """Paragraphs of docstrings, without their first lines."""
+    return [" ".join(text.split()) for doc in docs for text in (doc or "").split("\n\n")[1:]]
+
+
 METHOD = {
+    "oceans2020-readings": (
+        *_rules(readings.__doc__, statements.__doc__, readings_study.run_study.__doc__),
+        _SEEDS,
+        _RULE,
+    ),
     "oceans2020": (
         _SEEDS,
         "The place and the height of a peak are those of the smooth curves that fit all points, drawn from a Gaussian "

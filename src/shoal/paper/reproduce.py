@@ -5,7 +5,7 @@ import os
 import platform
 import shlex
 import time
-from collections.abc import Callable
+from collections.abc import Sequence
 from pathlib import Path
 
 import numba
@@ -13,23 +13,27 @@ import numpy as np
 
 from shoal.core.errors import RecordError, ScenarioError
 from shoal.core.files import check_folder, write_whole
-from shoal.experiments.cells import make_cells
-from shoal.experiments.executors import in_threads
-from shoal.experiments.results import seal
-from shoal.experiments.sweep import Progress, sweep
 from shoal.paper.claims import oceans_claims
 from shoal.paper.clusters import watch_clusters
-from shoal.paper.plan import PAPERS, QUICK_STEPS, SPEEDS, Plan, make_plan
+from shoal.paper.plan import PAPERS, PRINTED, QUICK_STEPS, REFIT, SPEEDS, Plan, make_plan
 from shoal.paper.published import published_claims, residual_table
-from shoal.paper.results import Reproduction, Row
+from shoal.paper.readings_study import STUDY, run_study
+from shoal.paper.results import Claim, Reproduction, Row
+from shoal.paper.running import Report, run_plan
 from shoal.paper.sensitivity import conclusion_table, peak_table
+from shoal.paper.side_claims import side_claims
+from shoal.paper.side_watch import watch_sides
 from shoal.version import RESULTS_VERSION, VERSION
-
-Report = Callable[[Progress], None]
 
 
 def reproduce(
-    paper: str, out: str | Path, *, quick: bool = False, jobs: int | None = None, report: Report | None = None
+    paper: str,
+    out: str | Path,
+    *,
+    quick: bool = False,
+    readings: bool = False,
+    jobs: int | None = None,
+    report: Report | None = None,
 ) -> Reproduction:
     """Run what is missing under `out`, and return the claims with their verdicts, the tables and the figures.
 
@@ -40,24 +44,30 @@ def reproduce(
     ----------
     paper : oceans2020 or aamas2020
     quick : 20,000 steps, 2 seeds, fewer k
+    readings : of oceans2020, instead of its claims, which reading of the paper meets most of them (readings.csv)
     jobs : threads, default one per core
     report : called after every run, with the progress of all sweeps together
 
     Raises
     ------
-    ScenarioError : no such paper
+    ScenarioError : no such paper, or readings of another one
     RecordError : `out` holds another reproduction, is in use, or cannot be written
     MissingExtraError : matplotlib is not installed; the runs are kept
     KeyboardInterrupt : interrupted; all finished runs are kept
     """
     if paper not in PAPERS:
         raise ScenarioError(str(paper), "is no paper that Shoal can reproduce", f"choose {' or '.join(PAPERS)}")
+    if readings and paper != "oceans2020":
+        raise ScenarioError(f"{paper} --readings", "are studied of oceans2020 only", "leave out --readings")
     begun, folder = time.monotonic(), Path(out)
-    plan = make_plan(paper, quick=quick)
-    _claim_folder(folder, plan)
-    rows = run_plan(plan, folder, jobs, report)
-    found = (judge_oceans if paper == "oceans2020" else judge_aamas)(plan, rows)
-    found.command = _command(paper, folder, quick, jobs)
+    _claim_folder(folder, STUDY if readings else paper, quick)
+    if readings:
+        found = run_study(folder, quick=quick, jobs=jobs, report=report)
+    else:
+        plan = make_plan(paper, quick=quick)
+        rows = run_plan(plan, folder, jobs, report)
+        found = (judge_oceans if paper == "oceans2020" else judge_aamas)(plan, rows)
+    found.command = _command(paper, folder, quick, readings, jobs)
     found.versions = _versions()
     _draw(found)
     found.seconds = time.monotonic() - begun
@@ -65,48 +75,61 @@ def reproduce(
     return found
 
 
-def run_plan(plan: Plan, out: Path, jobs: int | None = None, report: Report | None = None) -> dict[str, list[Row]]:
-    """Run what is missing, and return the rows of every group with its labels."""
-    total = sum(len(make_cells(group.design, group.changes)) * group.design.runs for group in plan.groups)
-    overall = Progress(total=total, before=0)
-    rows = {}
-    for group in plan.groups:
-        before, done, failed = overall.before, overall.done, overall.failed
-
-        def tell(now: Progress, before: int = before, done: int = done, failed: int = failed) -> None:
-            overall.before, overall.done, overall.failed = before + now.before, done + now.done, failed + now.failed
-            if report:
-                report(overall)
-
-        store = out / "runs" / group.name
-        found = sweep(
-            group.design, store, changes=group.changes, executor=in_threads(jobs), retry_failed=True, report=tell
-        )
-        overall.before += len(found) - (overall.before - before) - (overall.done - done)  # a group with nothing to do
-        seal(store, found)
-        rows[group.name] = [{**group.labels, **row} for row in found]
-    return rows
-
-
 def judge_oceans(plan: Plan, rows: dict[str, list[Row]]) -> Reproduction:
-    """Claims C1-C13, the peaks, and what they depend on."""
-    main, placement = rows["main"], rows["placement"]
+    """Every claim under both readings, the peaks, and what they depend on."""
     sensitivity = [row for name, group in rows.items() if name.startswith("sensitivity/") for row in group]
-    episodes = watch_clusters(min(plan.steps, QUICK_STEPS), plan.seeds, SPEEDS)
+    readings = ((PRINTED, ""), (REFIT, "refit/"))
+    sides = {
+        preset: [row for name, group in rows.items() if name.startswith(f"{prefix}side/") for row in group]
+        for preset, prefix in readings
+    }
+    claims = {preset: _judge_reading(plan, rows, sides[preset], preset, prefix) for preset, prefix in readings}
     return Reproduction(
         plan.paper,
         plan.quick,
         plan.steps,
         plan.seeds,
-        main,
+        rows["main"],
         sensitivity,
-        claims=oceans_claims(main, placement, episodes, plan.steps),
+        claims=claims[PRINTED],
+        refit=rows["refit/main"],
+        refit_claims=claims[REFIT],
+        sides=sides,
         tables={
-            "peaks": peak_table(main),
+            "verdicts": verdict_table(claims[PRINTED], claims[REFIT]),
+            "peaks": peak_table(rows["main"]),
+            "refit_peaks": peak_table(rows["refit/main"]),
             "sensitivity_peaks": peak_table(sensitivity),
             "sensitivity_conclusions": conclusion_table(sensitivity),
         },
     )
+
+
+def verdict_table(printed: Sequence[Claim], refit: Sequence[Claim]) -> list[Row]:
+    """One row per claim: its verdict under both readings, and whether they differ."""
+    return [
+        {
+            "claim": one.id,
+            "statement": one.statement,
+            "oceans2020": one.verdict,
+            "cases": one.cases,
+            "oceans2020-refit": other.verdict,
+            "refit_cases": other.cases,
+            "depends": one.verdict != other.verdict,
+        }
+        for one, other in zip(printed, refit, strict=True)
+    ]
+
+
+def _judge_reading(
+    plan: Plan, rows: dict[str, list[Row]], sides: Sequence[Row], preset: str, prefix: str
+) -> list[Claim]:
+    """All claims under one reading."""
+    main, placement = rows[f"{prefix}main"], rows[f"{prefix}placement"]
+    steps = min(plan.steps, QUICK_STEPS)
+    episodes = watch_clusters(steps, plan.seeds, SPEEDS, preset=preset)
+    claims = oceans_claims(main, placement, episodes, plan.steps)
+    return claims + side_claims(main, sides, watch_sides(preset, steps // 2, plan.seeds))
 
 
 def judge_aamas(plan: Plan, rows: dict[str, list[Row]]) -> Reproduction:
@@ -125,10 +148,10 @@ def judge_aamas(plan: Plan, rows: dict[str, list[Row]]) -> Reproduction:
     )
 
 
-def _claim_folder(out: Path, plan: Plan) -> None:
+def _claim_folder(out: Path, paper: str, quick: bool) -> None:
     """Remember whose folder this is, or refuse one of another reproduction with a plain sentence."""
     file = out / "plan.json"
-    mine = {"paper": plan.paper, "quick": plan.quick}
+    mine = {"paper": paper, "quick": quick}
     check_folder(out, [file.name])
     try:
         out.mkdir(parents=True, exist_ok=True)
@@ -143,7 +166,7 @@ def _claim_folder(out: Path, plan: Plan) -> None:
     if known != mine:
         raise RecordError(
             str(out),
-            f"holds the {_kind(known)} reproduction of {known.get('paper')}, not the {_kind(mine)} one of {plan.paper}",
+            f"holds the {_kind(known)} reproduction of {known.get('paper')}, not the {_kind(mine)} one of {paper}",
             "name another folder with --out",
         )
     write_whole(file, (json.dumps(mine) + "\n").encode())
@@ -154,19 +177,23 @@ def _kind(plan: dict[str, object]) -> str:
 
 
 def _draw(found: Reproduction) -> None:
-    from shoal.paper.figures import make_aamas_figures, make_figures
+    from shoal.paper.figures import make_aamas_figures, make_figures, make_study_figures
 
-    found.figures = (make_figures if found.paper == "oceans2020" else make_aamas_figures)(found)
+    makers = {"oceans2020": make_figures, "aamas2020": make_aamas_figures, STUDY: make_study_figures}
+    found.figures = makers[found.paper](found)
 
 
 def _write(found: Reproduction, out: Path) -> None:
-    from shoal.paper.report import write_report
+    from shoal.paper.report import to_csv, write_report
 
+    if found.paper == STUDY:
+        write_whole(out / "readings.csv", to_csv(found.tables["readings"]).encode())
     write_report(found, out)
 
 
-def _command(paper: str, out: Path, quick: bool, jobs: int | None) -> str:
-    options = [*(["--quick"] if quick else []), "--out", str(out), *(["--jobs", str(jobs)] if jobs else [])]
+def _command(paper: str, out: Path, quick: bool, readings: bool, jobs: int | None) -> str:
+    chosen = [*(["--readings"] if readings else []), *(["--quick"] if quick else [])]
+    options = [*chosen, "--out", str(out), *(["--jobs", str(jobs)] if jobs else [])]
     return shlex.join(["shoal", "reproduce", paper, *options])
 
 

@@ -49,6 +49,8 @@ class Figure:
 class Reproduction:
     """All that a report needs.
 
+    For oceans2020, `refit` and `refit_claims` are the rows and the claims under the other reading of the paper, in the
+    order of `claims`; `sides` are the rows of other settings under each reading, labeled by `side`.
     `main` has columns fast, neighbors, target_speed and sensitivity also variant. For aamas2020, `main` has the columns
     preset (aamas2020, aamas2020-constant) and neighbors, `sensitivity` is empty, and tables["published"] has one row
     per cell compared: metric, neighbors, measured, low, high, published, residual, tolerance, verdict.
@@ -61,6 +63,9 @@ class Reproduction:
     main: list[Row]
     sensitivity: list[Row]
     claims: list[Claim] = field(default_factory=list)
+    refit: list[Row] = field(default_factory=list)
+    refit_claims: list[Claim] = field(default_factory=list)
+    sides: dict[str, list[Row]] = field(default_factory=dict)
     figures: list[Figure] = field(default_factory=list)
     tables: dict[str, list[Row]] = field(default_factory=dict)  # printed in the report and written as CSV
     command: str = ""

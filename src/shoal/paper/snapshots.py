@@ -13,6 +13,7 @@ from shoal.scenario.load import load
 from shoal.scenario.schema import Scenario
 
 STEPS = 20_000  # searched for the moments
+_EDGE = 1e-6  # [m] from the wall
 _ROUNDING = 1e-9  # [m] a_R climbs in steps that do not add up exactly
 
 Flags = npt.NDArray[np.bool_]
@@ -20,10 +21,13 @@ Floats = npt.NDArray[np.float64]
 
 
 class Locked(NamedTuple):
-    """The frame with the most locked agents: `locked` (N,), and `pushing` (N,), those with a_R at its maximum."""
+    """The frame with the most agents locked inside the area: `locked` (N,), `inside` (N,), those who do not touch the
+    wall, and `pushing` (N,), those with a_R at its maximum.
+    """
 
     frame: int
     locked: Flags
+    inside: Flags
     pushing: Flags
 
 
@@ -45,17 +49,23 @@ def watch(scenario: Scenario | None = None, steps: int = STEPS, run: int = 0) ->
 
 
 def find_locked(record: Record, run: int = 0) -> Locked:
-    """Return the first frame with the most locked agents while another is on target.
+    """Return the first frame with the most agents locked inside the area, off its wall, while another is on target.
 
-    Locked is who has a_R at its maximum and is stationary, as in the histogram of phi.
+    Of frames with equally many, the one with the most locked anywhere. Locked is who has a_R at its maximum and is
+    stationary, as in the histogram of phi.
     """
     frames = record.trajectories[run]
     top = np.repeat(record.facts.max_speeds, record.facts.counts)
     pushing = np.asarray(frames.memory["repulsion"]) >= record.scenario["strategy"]["repulsion_max"] - _ROUNDING
     locked = pushing & which_stationary(frames.vx, frames.vy, top)
-    count = np.where(np.asarray(frames.on_target).any(axis=1), locked.sum(axis=1), -1)
-    frame = int(count.argmax())
-    return Locked(frame, locked[frame], pushing[frame])
+    area = record.scenario["area"]
+    inside = np.ones(locked.shape, bool)
+    for places, side in ((frames.x, area["width"]), (frames.y, area["height"])):
+        inside &= np.abs(np.asarray(places)) < side / 2 - area["agent_margin"] - _EDGE
+    tracked = np.asarray(frames.on_target).any(axis=1)
+    most = (locked & inside).sum(axis=1) * (locked.shape[1] + 1) + locked.sum(axis=1)
+    frame = int(np.where(tracked, most, -1).argmax())
+    return Locked(frame, locked[frame], inside[frame], pushing[frame])
 
 
 def find_clustering(record: Record, run: int = 0) -> Clustering:
