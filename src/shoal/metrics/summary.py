@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from shoal.core.agents import Floats
 from shoal.core.messages import REPORT_BYTES
-from shoal.metrics.tally import Tally, batch_of
+from shoal.metrics.tally import NONE_SEEN, Tally, batch_of
 
 
 class Facts(NamedTuple):
@@ -175,7 +175,7 @@ METRICS: dict[str, Metric] = {
     "closest": Metric(
         "m",
         "smallest distance between two agents, looked at every 25 steps; of one run, and the longer the smaller",
-        lambda t, f: float(np.sqrt(t.closest.min())) if np.isfinite(t.closest.min()) else float("nan"),
+        lambda t, f: float(np.sqrt(t.closest.min())) if t.closest.min() < NONE_SEEN else float("nan"),
         once=True,
     ),
     "components": Metric(

@@ -82,7 +82,7 @@ def _read_like(stream: IO[bytes], like: npt.NDArray[Any], name: str) -> npt.NDAr
     if len(content) != like.nbytes:
         raise ValueError(f"{name} is cut short or too long")
     values = np.frombuffer(content, kind).reshape(shape).copy()
-    if not (np.isfinite(values) | (values == like)).all() or (values < 0).any():  # a least value begins at infinity
+    if not np.isfinite(values).all() or (values < 0).any():
         raise ValueError(f"{name} holds a number that is no sum")
     return values
 
