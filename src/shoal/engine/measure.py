@@ -22,7 +22,7 @@ def measure_before_move(tally, batch, world, swarm, targets, counts, number, scr
     tally_contacts(tally, batch, targets)
     tally_velocity_fluctuation(tally, batch, swarm, world.agents, active, scratch.a)
     tally_coverage(tally, batch, world, swarm, number)
-    tally_closest(tally, batch, swarm, world.agents, number)
+    tally_closest(tally, swarm, world.agents, number)
 
 
 @kernel

@@ -6,11 +6,11 @@ EVERY = 25  # steps between two looks: a hundredth of the time of a run
 
 
 @kernel
-def tally_closest(tally, batch, swarm, agents, number):
+def tally_closest(tally, swarm, agents, number):
     """Keep the smallest squared distance [m^2] between two agents that are there, at the start of every 25th step."""
     if number % EVERY != 0:
         return
-    least = tally.closest[batch]
+    least = tally.closest[0]
     for i in range(agents):
         x = swarm.x[i]
         y = swarm.y[i]
@@ -21,4 +21,4 @@ def tally_closest(tally, batch, swarm, agents, number):
                 square = dx * dx + dy * dy
                 if square < least and swarm.alive[j] > 0.0:
                     least = square
-    tally.closest[batch] = least
+    tally.closest[0] = least

@@ -84,6 +84,12 @@ def mean_max_speed(tally: Tally, facts: Facts) -> float:
     return float(sum(n * v for n, v in zip(agents, facts.max_speeds, strict=True)) / or_nan(agents.sum()))
 
 
+def _closest(tally: Tally) -> float:
+    """The smallest distance [m], NaN if no two agents were ever there."""
+    square = float(tally.closest.min(initial=NONE_SEEN))
+    return math.sqrt(square) if square < NONE_SEEN else float("nan")
+
+
 def _fairness(tally: Tally) -> float:
     """Jain's index of the targets' shares of time watched."""
     there = tally.target_steps.sum(axis=0)
@@ -175,7 +181,7 @@ METRICS: dict[str, Metric] = {
     "closest": Metric(
         "m",
         "smallest distance between two agents, looked at every 25 steps; of one run, and the longer the smaller",
-        lambda t, f: float(np.sqrt(t.closest.min())) if t.closest.min() < NONE_SEEN else float("nan"),
+        lambda t, f: _closest(t),
         once=True,
     ),
     "components": Metric(

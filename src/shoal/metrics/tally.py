@@ -34,7 +34,7 @@ class Tally(NamedTuple):
     graphs, components, clustering : (B,) looks at the graph, and sums over them
     windows, covered, sweeps, swept : (B,) coverage windows ended and begun, and sums over them, see coverage.py
     distance [m], cubes [m^3/s^2] : (B, N), see effort.py
-    closest : (B,) [m^2] no sum but the least square of a distance between two agents, see closest.py
+    closest : (1,) [m^2] the least square of a distance between two agents, no sum, see closest.py
     seen : (1, cells) the state of the coverage grid, no sum
     """
 
@@ -90,7 +90,7 @@ def new_tally(steps: int, batches: int, fleets: int, agents: int, targets: int) 
         timeline_on_target=np.zeros((batches, WINDOWS)),
         distance=np.zeros((batches, agents)),
         cubes=np.zeros((batches, agents)),
-        closest=np.full(batches, NONE_SEEN),
+        closest=np.full(1, NONE_SEEN),
         seen=np.zeros((1, CELLS * CELLS), np.int64),
         **{name: np.zeros(batches) for name in _PLAIN},
     )

@@ -61,7 +61,11 @@ def run_study(out: Path, *, quick: bool = False, jobs: int | None = None, report
             "readings_scores": score_table(screened, finals, chosen.reading),
             "readings_peaks": [row for each in (*finals, *screened) for row in each.peaks],
             "readings": readings_table(list(best.values()), chosen.reading),
-            "frontier": frontier_table({name: each.found for name, each in best.items()}),
+            "frontier": [
+                {"among": among, **row}
+                for among, of in (("finalists", finals), ("all", best.values()))
+                for row in frontier_table({each.reading.name: each.found for each in of})
+            ],
         },
     )
 
