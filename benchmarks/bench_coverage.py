@@ -19,7 +19,7 @@ from shoal.metrics.summary import METRICS
 from shoal.metrics.tally import Tally
 from shoal.record.record import Record
 from shoal.record.statistics import estimate
-from shoal.runs import simulate
+from shoal.run.simulate import simulate
 from shoal.scenario.edit import apply
 from shoal.scenario.load import read_table, scenario_from
 

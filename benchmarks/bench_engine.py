@@ -86,7 +86,7 @@ def step_rows(anchor: Path | None) -> list[Row]:
         Row("engine, oceans2020", "ns", engine),
         Row("anchor, limit.cpp", "ns", row("anchor")),
         Row("  engine / anchor", "x", ratio(engine, row("anchor"))),
-        Row("NumPy, tests/oracle.py", "ns", row("oracle")),
+        Row("NumPy, reference.py", "ns", row("oracle")),
         Row("  NumPy / engine", "x", ratio(row("oracle"), engine)),
         Row("engine, aamas2020 (sequential)", "ns", row("sequential")),
         Row("engine, a user's strategy (wander)", "ns", user),

@@ -11,9 +11,9 @@ from playwright.sync_api import Browser, Page, sync_playwright
 
 from shoal import load, simulate
 from shoal.scenario.load import read_table
-from shoal.view.replay import replay_page
-from shoal.view.server import watching
-from shoal.view.session import Session
+from shoal.viewer.replay import replay_page
+from shoal.viewer.server import watching
+from shoal.viewer.session import Session
 
 CHROMIUM = [Path(path) for path in ("/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome")]
 DESK = {"width": 1280, "height": 720}

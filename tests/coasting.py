@@ -3,7 +3,7 @@
 import numpy as np
 
 from scenarios import fleets, scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 
 def coasting(places, velocities, targets=((0.0, 0.0),), makes=None, radius=1.0, **changes):
@@ -23,6 +23,7 @@ def coasting(places, velocities, targets=((0.0, 0.0),), makes=None, radius=1.0, 
         },
     )
     simulation, n = Simulation(chosen), len(places)
-    simulation.swarm.x[:n], simulation.swarm.y[:n] = places.T
-    simulation.swarm.vx[:n], simulation.swarm.vy[:n] = velocities.T
+    with simulation.edit() as now:
+        now.swarm.x[:n], now.swarm.y[:n] = places.T
+        now.swarm.vx[:n], now.swarm.vy[:n] = velocities.T
     return simulation

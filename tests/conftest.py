@@ -22,7 +22,7 @@ def pytest_configure(config):
     """Fill the engine's cache before xdist starts its workers: else each compiles the same, half as fast."""
     if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
         with suppress(Exception):  # what is wrong with the engine, the tests will tell
+            from shoal.run.simulation import Simulation
             from shoal.scenario.load import load
-            from shoal.simulation import Simulation
 
             Simulation(load("oceans2020")).advance(0)

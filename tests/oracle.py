@@ -1,22 +1,13 @@
-"""The paper's model in slow, plain NumPy: the referee of the fast engine.
+"""The referee of the fast engine: the paper's model of shoal/reference.py, with its options, its target and its sums.
 
 Kwa, Tokic, Yue, Bouffanais, "Heterogeneous Swarms for Maritime Dynamic Target Search and Tracking", OCEANS
 2020 ("the paper"), and its homogeneous predecessor, Kwa, Leong Kit, Bouffanais, "Optimal Swarm Strategy for
 Dynamic Target Search and Tracking", AAMAS 2020.
 
-This file never imports `shoal`; nothing here is shared with what it judges. It keeps the symbols of the paper
-and works in arena units per step: side 20, so [-10, 10]^2; 1 unit = 1 m; 1 step = 0.1 s; 1 m/s = 0.1 unit per
-step. Chance is injected: the caller hands over the draws of a step, so that another engine's draws can be
-replayed.
-
-Three choices a reader may look for:
-
-* Two squared distances are compared, exactly, never two square roots; a tie goes to the lower index.
-* On the axis where the arena clamps an agent, and only there, v becomes the displacement really made. An
-  agent that starts beyond the clamp is therefore pulled in at its first step, and its velocity may exceed its
-  top speed.
-* An agent follows itself (`followed[i] == i`) when it is on target, nobody (-1) when neither it nor a
-  neighbor is.
+Of `shoal`, this file imports the reference alone, which imports nothing of ours: nothing here is shared with what it
+judges. It keeps the symbols of the paper and works in arena units per step: side 20, so [-10, 10]^2; 1 unit = 1 m;
+1 step = 0.1 s; 1 m/s = 0.1 unit per step. Chance is injected: the caller hands over the draws of a step, so that
+another engine's draws can be replayed.
 """
 
 import math
@@ -25,6 +16,8 @@ from typing import Literal
 
 import numpy as np
 
+from shoal.reference import Paper, Swarm, length
+
 A_START = math.sqrt(math.pi * 2.0**2 / 50)  # 0.5013, a_R of every agent at the start, R = 2
 ARENA_HALF = 10.0
 PHI_CENTERS = np.linspace(-1.0, 1.0, 11)
@@ -32,25 +25,13 @@ SLOW, FAST = 0.10, 0.26  # top speeds of BoB-0 and BoB-1, 1.0 and 2.6 m/s
 
 
 @dataclass(frozen=True, eq=False)
-class Model:
-    """Every switch of the model. Speeds in units per step; defaults are those of the paper as printed."""
+class Model(Paper):
+    """Every switch of the model, and the target's walk. Speeds in units per step; defaults are those of the paper."""
 
-    max_speed: np.ndarray  # (N,), and with it N
-    k: int  # neighbors each agent hears, at most N - 1
-    omega: float = 1.0  # velocity inertial weight
-    c: float = 0.5  # velocity social weight
-    d: float = 6.0  # exponent of the repulsion
-    a_min: float = 0.375
-    a_max: float = 1.5
-    a_up: float = 0.01
-    a_down: float = 0.01
     update: Literal["synchronous", "sequential"] = "synchronous"
     follow: Literal["nearest", "lowest-index"] = "nearest"
     speed_rule: Literal["cap", "divide"] = "cap"  # divide: the paper's v <- v / vmax, vmax in m/s
-    clamp_x: float = 8.5  # half widths of the box that agents stay in
-    clamp_y: float = 8.5
-    rho: float = 1.0  # radius within which an agent is on target
-    per_axis_r: bool = False  # draw r for x and for y
+    per_axis_r: bool = False  # draw r for x and for y: r is (N, 2)
     target_speed: float = 0.3
     target_half_x: float = 8.0  # half widths of the box that waypoints are drawn in
     target_half_y: float = 8.0
@@ -70,6 +51,21 @@ class Model:
     def n(self) -> int:
         """Number of agents."""
         return len(self.max_speed)
+
+    def turns(self, agents):
+        """All at once, or one by one, the later seeing the moved ones."""
+        return super().turns(agents) if self.update == "synchronous" else np.arange(agents)[:, None]
+
+    def neighborhood_best(self, f, near, i):
+        """The nearest neighbor on target, or the one of the lowest index."""
+        if self.follow == "nearest":
+            return super().neighborhood_best(f, near, i)
+        lowest = np.where(f[near], near, self.n).min(axis=1)
+        return np.where(f[i], i, np.where(lowest < self.n, lowest, -1))
+
+    def limited(self, v, max_speed):
+        """Scaled down to the top speed, or divided by it in m/s."""
+        return super().limited(v, max_speed) if self.speed_rule == "cap" else v / (10.0 * max_speed)[:, None]
 
 
 @dataclass(eq=False)
@@ -123,119 +119,19 @@ def step(model: Model, state: State, r: np.ndarray, new_waypoint: np.ndarray) ->
     new_waypoint : (2,), taken up only if the target needs one in this step
     """
     assert np.shape(r) == ((model.n, 2) if model.per_axis_r else (model.n,))
-    r = np.reshape(r, (model.n, -1))  # a column for each axis, or one for both
-    new = state.copy()
-    x, v, a = new.x, new.v, new.a  # changed in place below
-    limited = np.empty_like(v)
-    followed = np.empty(model.n, dtype=int)
-    neighbors = np.empty((model.n, model.k), dtype=int)
-
-    on_target = detects(model, x, state.target)  # for all, before anyone moves
-    for who in turns(model):
-        near = nearest_others(model, x, who)
-        best = whom_to_follow(model, on_target, near, who)
-        a[who] = adapted_repulsion(model, a[who], on_target[who] | on_target[near].any(axis=1))
-        wanted = model.omega * v[who] + social_velocity(model, x, who, best, r[who])
-        wanted = wanted + repulsion(model, x, who, near, a[who])
-        limited[who] = limit_speed(model, wanted, model.max_speed[who])
-        x[who], v[who] = move(model, x[who], limited[who])
-        neighbors[who], followed[who] = near, best
-
-    phi = cosine_to_target(model, x, limited, v, state.target)
+    swarm, seen = model.algorithm_2(Swarm(state.x, state.v, state.a), state.target, np.asarray(r))
+    new = State(*swarm, state.target, state.heading, state.waypoint, state.steps_on_waypoint).copy()
     move_target(model, new, new_waypoint)
     return new, Measures(
-        f_any=bool(on_target.any()),
-        on_target_count=int(on_target.sum()),
-        on_target=on_target,
-        fluctuations=length(state.v - state.v.mean(axis=0)),
-        phi=phi,
-        phi_bin=bin_of(phi),
-        followed=followed,
-        neighbors=neighbors,
+        f_any=bool(seen.on_target.any()),
+        on_target_count=int(seen.on_target.sum()),
+        phi_bin=bin_of(seen.phi),
+        **seen._asdict(),
     )
 
 
-def turns(model):
-    """Who reads the swarm and moves together: all at once, or one by one, the later seeing the moved ones."""
-    if model.update == "synchronous":
-        return [slice(0, model.n)]
-    return [slice(i, i + 1) for i in range(model.n)]
-
-
-def detects(model, x, target):
-    """Step 1: f_i = -1 if |x_i - target| <= rho."""
-    return squared_length(x - target) <= model.rho**2
-
-
-def nearest_others(model, x, who):
-    """Step 2: the k nearest other agents; of two at the same distance the lower index first."""
-    me = np.arange(model.n)[who]
-    squared_distance = squared_length(x[who, None, :] - x[None, :, :])  # (who, N)
-    squared_distance[np.arange(len(me)), me] = np.inf
-    return np.argsort(squared_distance, axis=1, kind="stable")[:, : model.k]
-
-
-def whom_to_follow(model, on_target, near, who):
-    """Step 3: oneself if on target, else a neighbor on target, else nobody (-1)."""
-    me = np.arange(model.n)[who]
-    found = on_target[near]  # (who, k)
-    if model.follow == "nearest":
-        neighbor = near[np.arange(len(me)), found.argmax(axis=1)]  # argmax: the first that is true
-    else:
-        neighbor = np.where(found, near, model.n).min(axis=1)
-    return np.where(on_target[me], me, np.where(found.any(axis=1), neighbor, -1))
-
-
-def adapted_repulsion(model, a, tracking):
-    """Step 4, Algorithm 1 to the letter: the test comes first, so a_R can end one delta outside its range."""
-    lowered = np.where(a > model.a_min, a - model.a_down, a)
-    raised = np.where(a < model.a_max, a + model.a_up, a)
-    return np.where(tracking, lowered, raised)
-
-
-def social_velocity(model, x, who, best, r):
-    """Step 5, the pull of Eq. 2: c r (Nbest - x_i), where Nbest = x_i for those who follow nobody."""
-    me = np.arange(model.n)[who]
-    n_best = x[np.where(best == -1, me, best)]
-    return model.c * r * (n_best - x[who])
-
-
-def repulsion(model, x, who, near, a):
-    """Step 5, the push of Eq. 4: sum over N_i of (a_R / r_ij)^d (x_i - x_j) / r_ij.
-
-    A neighbor at the same place gives no push: it has no direction.
-    """
-    away = x[who, None, :] - x[near]  # (who, k, 2)
-    distance = length(away)
-    apart = distance > 0.0
-    distance = np.where(apart, distance, 1.0)
-    push = np.where(apart, (a[:, None] / distance) ** model.d, 0.0)
-    return (push[..., None] * away / distance[..., None]).sum(axis=1)
-
-
-def limit_speed(model, v, max_speed):
-    """Step 6: scale down to the top speed, or divide by it in m/s."""
-    if model.speed_rule == "divide":
-        return v / (10.0 * max_speed)[:, None]
-    speed = length(v)
-    too_fast = speed > max_speed
-    return np.where(too_fast[:, None], v * (max_speed / np.where(too_fast, speed, 1.0))[:, None], v)
-
-
-def move(model, x, v):
-    """Step 7: move and clamp; where the clamp acted, v is the displacement really made.
-
-    Being put inside by the wall is no motion: who is outside counts from the wall on.
-    """
-    half = np.array([model.clamp_x, model.clamp_y])
-    wanted = x + v
-    reached = np.minimum(np.maximum(wanted, -half), half)
-    begun = np.minimum(np.maximum(x, -half), half)
-    return reached, np.where(reached != wanted, reached - begun, v)
-
-
 def move_target(model, state, new_waypoint):
-    """Step 8: turn to the waypoint, the shorter way, at most turn_max; advance; perhaps renew the waypoint.
+    """Turn to the waypoint, the shorter way, at most turn_max; advance; perhaps renew the waypoint.
 
     Works on `state` in place. A waypoint exactly behind is turned to by the left; one exactly underneath
     calls for no turn.
@@ -260,34 +156,9 @@ def move_target(model, state, new_waypoint):
         state.steps_on_waypoint = 0
 
 
-def cosine_to_target(model, x, v, made, target):
-    """phi_i: cosine of the angle between heading and bearing, 0 if stationary or at the target itself.
-
-    x after the move, v after the speed rule but before the clamp, target before its own move. Stationary is
-    whose displacement after the clamp, `made`, is shorter than 10 % of one's own top speed.
-    """
-    bearing = target - x
-    speed, distance = length(v), length(bearing)
-    counts = (length(made) >= 0.1 * model.max_speed) & (speed > 0.0) & (distance > 0.0)
-    product = np.where(counts, speed * distance, 1.0)
-    cosine = (v * bearing).sum(axis=1) / product
-    return np.where(counts, np.minimum(np.maximum(cosine, -1.0), 1.0), 0.0)
-
-
 def bin_of(phi):
     """Index of the bin, 0.2 wide around -1, -0.8, ..., 1; a value on an edge belongs to the upper bin."""
     return np.floor(5.0 * np.asarray(phi) + 5.5).astype(int)
-
-
-def squared_length(vectors):
-    """dx*dx + dy*dy along the last axis."""
-    dx, dy = vectors[..., 0], vectors[..., 1]
-    return dx * dx + dy * dy
-
-
-def length(vectors):
-    """Euclidean norm along the last axis."""
-    return np.sqrt(squared_length(vectors))
 
 
 def random_start(model: Model, rng: np.random.Generator) -> State:
@@ -323,7 +194,7 @@ def run(model: Model, state: State, steps: int, rng: np.random.Generator) -> Ave
     xi_raw = response / steps / model.n
     return Averages(
         time_on_target=found / steps,
-        xi=xi_raw / model.max_speed.mean(),
+        xi=model.xi(xi_raw),
         xi_raw=xi_raw,
         response=response / steps,
         phi_histogram=histogram / steps,

@@ -100,14 +100,16 @@ def state_of(simulation):
 
 def put_state(simulation, state):
     """Overwrite a simulation's state with the oracle's."""
-    n, swarm, target = simulation.scenario.agents, simulation.swarm, simulation.targets[0]
-    swarm.x[:n], swarm.y[:n] = state.x.T
-    swarm.vx[:n], swarm.vy[:n] = state.v.T / simulation.scenario.time_step
-    simulation.minds.memory["repulsion"][:n] = state.a
-    target["x"], target["y"] = state.target
-    target["heading_x"], target["heading_y"] = state.heading
-    target["waypoint_x"], target["waypoint_y"] = state.waypoint
-    target["waypoint_age"] = state.steps_on_waypoint
+    n = simulation.scenario.agents
+    with simulation.edit() as now:
+        swarm, target = now.swarm, now.targets[0]
+        swarm.x[:n], swarm.y[:n] = state.x.T
+        swarm.vx[:n], swarm.vy[:n] = state.v.T / simulation.scenario.time_step
+        swarm.memory[:n, simulation.memory_fields.index("repulsion")] = state.a
+        target["x"], target["y"] = state.target
+        target["heading_x"], target["heading_y"] = state.heading
+        target["waypoint_x"], target["waypoint_y"] = state.waypoint
+        target["waypoint_age"] = state.steps_on_waypoint
 
 
 def oracle_step(simulation, model, state):

@@ -4,7 +4,8 @@ import numpy as np
 
 import replay
 from scenarios import fleets, scenario
-from shoal.simulation import Simulation
+from shoal.core.agents import as_records
+from shoal.run.simulation import Simulation
 
 ENDLESS = 1e9  # a top speed that limits nobody [m/s]
 NOWHERE = (1e6, 1e6)  # a target that nobody finds
@@ -37,8 +38,14 @@ def staged(strategy, places, targets=(NOWHERE,), top=ENDLESS, changes=None):
 def put(simulation, places):
     """Move the agents to these places, at rest."""
     n = simulation.scenario.agents
-    simulation.swarm.x[:n], simulation.swarm.y[:n] = np.array(places, float).T
-    simulation.swarm.vx[:n] = simulation.swarm.vy[:n] = 0.0
+    with simulation.edit() as now:
+        now.swarm.x[:n], now.swarm.y[:n] = np.array(places, float).T
+        now.swarm.vx[:n] = now.swarm.vy[:n] = 0.0
+
+
+def memory_of(simulation):
+    """What agents remember, as records that a test may write to."""
+    return as_records(simulation._swarm.memory, simulation.memory_fields)
 
 
 def places(simulation):

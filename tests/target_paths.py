@@ -3,7 +3,7 @@
 import numpy as np
 
 from scenarios import fleets, scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 FAR = [(-9.0, -9.0), (9.0, 9.0)]
 
@@ -16,7 +16,8 @@ def path_of(target, steps=2000, start=None, heading=None, buoys=FAR, seed=1, **c
     still = {"strategy.social": 0.0, "strategy.repulsion_step": 0.0, "area.agent_margin": 0.0, "network.neighbors": 1}
     chosen = {"fleets": fleets((len(buoys), 1.0)), "targets": [{"radius": 1.0, **target}], "seed": seed, "steps": steps}
     simulation = Simulation(scenario("oceans2020", {**still, **chosen, **changes}))
-    simulation.swarm.x[: len(buoys)], simulation.swarm.y[: len(buoys)] = np.transpose(buoys)
+    with simulation.edit() as now:
+        now.swarm.x[: len(buoys)], now.swarm.y[: len(buoys)] = np.transpose(buoys)
     record = simulation.targets[0]
     if start is not None:
         record.x, record.y = start

@@ -12,7 +12,7 @@ import pytest
 import oracle
 from replay import model_of, oracle_step, put_state, state_of
 from scenarios import fleets, scenario, small
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 PRESETS = ["oceans2020", "aamas2020", "aamas2020-constant"]
 SEQUENTIAL = {"motion.update_order": "sequential"}

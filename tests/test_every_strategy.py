@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from scenarios import fleets, scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 from shoal.strategies import CATALOGUE
 
 STEPS = 40

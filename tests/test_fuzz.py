@@ -15,9 +15,9 @@ from shoal.cli.options import edited_table
 from shoal.core.errors import ShoalError
 from shoal.core.text import hides
 from shoal.metrics.summary import METRICS
-from shoal.scenario.facts import facts_of
+from shoal.run.facts import facts_of
+from shoal.run.simulation import Simulation
 from shoal.scenario.load import load, scenario_from, to_toml
-from shoal.simulation import Simulation
 from shoal.strategies import CATALOGUE
 
 CREWS = [*([name] for name in STRATEGIES), *TEAMS]

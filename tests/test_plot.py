@@ -7,7 +7,7 @@ import shoal
 from scenarios import fleets, scenario
 from shoal import plot
 from shoal.core.errors import RecordError, ScenarioError, ShoalError
-from shoal.viz.style import new_figure, style
+from shoal.drawing.style import new_figure, style
 
 pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install '.[plots]'")
 

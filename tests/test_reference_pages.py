@@ -8,10 +8,10 @@ import pytest
 
 from scenarios import changed
 from shoal.metrics.summary import METRICS
+from shoal.run.simulation import Simulation
 from shoal.scenario.load import load, read_table, scenario_from
 from shoal.scenario.schema import AdaptiveDegree, Fleet, Join, Loss, Network
 from shoal.scenario.targets import TARGETS
-from shoal.simulation import Simulation
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = ("targets", "disturbances")

@@ -13,7 +13,7 @@ from shoal.core.errors import RecordError
 from shoal.experiments.results import aggregate, read_rows
 from shoal.metrics.summary import METRICS
 from shoal.record.files import open_record, save_record
-from shoal.runs import simulate
+from shoal.run.simulate import simulate
 from shoal.scenario.load import load
 from shoal.version import RESULTS_VERSION
 

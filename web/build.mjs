@@ -2,7 +2,7 @@
 import { copyFileSync, mkdirSync, readdirSync } from "node:fs";
 import { build } from "esbuild";
 
-const STATIC = "../src/shoal/view/static";
+const STATIC = "../src/shoal/viewer/static";
 const BANNER = "/*! Shoal's viewer. Built from web/src by `npm run build` in web/; edit there, not here. */";
 
 if (process.argv.includes("--tests")) {

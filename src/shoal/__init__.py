@@ -14,6 +14,7 @@ list_strategies, list_metrics, list_presets    what there is
 strategy, kernel, uniform, normal              to write a strategy, with the units
 Meters, MetersPerSecond, Seconds, Degrees      of its parameters
 plot                                           every figure, in one line each
+Buoy, Reading, Report, briefing                to decide on board, without an engine
 ShoalError                                     base of every error raised on purpose
 
 `help(shoal.simulate)` and so on say more.
@@ -26,18 +27,21 @@ from shoal.version import VERSION as __version__  # noqa: N811 (the name every p
 
 if TYPE_CHECKING:
     from shoal import plot
+    from shoal.buoy.buoy import Buoy
+    from shoal.compiler.kernel import kernel
     from shoal.core.draws import normal, uniform
     from shoal.core.errors import ShoalError
-    from shoal.core.kernel import kernel
+    from shoal.core.messages import Reading, Report
     from shoal.core.units import Degrees, Meters, MetersPerSecond, Seconds
     from shoal.experiments.results import load_results
     from shoal.paper.reproduce import reproduce
     from shoal.record.files import open_record, save_record
     from shoal.record.record import Record
-    from shoal.runs import simulate
+    from shoal.run.simulate import simulate
+    from shoal.run.simulation import Simulation
+    from shoal.scenario.briefing import briefing
     from shoal.scenario.load import load, presets, to_toml
     from shoal.scenario.schema import Scenario
-    from shoal.simulation import Simulation
     from shoal.strategies import strategy
     from shoal.study.check import check
     from shoal.study.compared import compare
@@ -45,18 +49,21 @@ if TYPE_CHECKING:
     from shoal.study.swept import sweep
 
 _HOMES = {
+    "shoal.buoy.buoy": ("Buoy",),
     "shoal.core.draws": ("normal", "uniform"),
     "shoal.core.errors": ("ShoalError",),
-    "shoal.core.kernel": ("kernel",),
+    "shoal.core.messages": ("Reading", "Report"),
+    "shoal.compiler.kernel": ("kernel",),
     "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Seconds"),
     "shoal.experiments.results": ("load_results",),
     "shoal.paper.reproduce": ("reproduce",),
     "shoal.record.files": ("open_record", "save_record"),
     "shoal.record.record": ("Record",),
-    "shoal.runs": ("simulate",),
+    "shoal.scenario.briefing": ("briefing",),
     "shoal.scenario.load": ("load", "presets", "to_toml"),
     "shoal.scenario.schema": ("Scenario",),
-    "shoal.simulation": ("Simulation",),
+    "shoal.run.simulate": ("simulate",),
+    "shoal.run.simulation": ("Simulation",),
     "shoal.strategies": ("strategy",),
     "shoal.study.check": ("check",),
     "shoal.study.compared": ("compare",),
@@ -66,15 +73,19 @@ _HOMES = {
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
+    "Buoy",
     "Degrees",
     "Meters",
     "MetersPerSecond",
+    "Reading",
     "Record",
+    "Report",
     "Scenario",
     "Seconds",
     "ShoalError",
     "Simulation",
     "__version__",
+    "briefing",
     "check",
     "compare",
     "kernel",

@@ -16,28 +16,28 @@ import numpy as np
 
 from shoal.core.errors import RecordError, ScenarioError, did_you_mean, no_attribute
 from shoal.core.text import plain
+from shoal.drawing.arena import arena_aspect
+from shoal.drawing.curves import draw_batches
+from shoal.drawing.files import save_figure
+from shoal.drawing.film import Film, FilmLook, write_film
+from shoal.drawing.footage import present
+from shoal.drawing.histogram import draw_phi_histogram
+from shoal.drawing.layout import snapshot_size
+from shoal.drawing.legend import legend_height, map_legend_height, short_name
+from shoal.drawing.scene import Parts
+from shoal.drawing.snapshot import draw_snapshot, frames_of
+from shoal.drawing.stretch import frame_of
+from shoal.drawing.style import new_figure, style
+from shoal.drawing.summary import summary_figure
+from shoal.drawing.sweep import Curve, draw_sweep, sweep_page
+from shoal.drawing.trajectory_map import draw_trajectory_map
+from shoal.drawing.words import field_words
 from shoal.experiments.replicate import Row
 from shoal.experiments.results import aggregate, default_x, varied_rows
 from shoal.metrics.summary import METRICS
 from shoal.record.files import open_record
 from shoal.record.record import Record
-from shoal.simulation import Simulation
-from shoal.viz.arena import arena_aspect
-from shoal.viz.curves import draw_batches
-from shoal.viz.files import save_figure
-from shoal.viz.film import Film, FilmLook, write_film
-from shoal.viz.footage import present
-from shoal.viz.histogram import draw_phi_histogram
-from shoal.viz.layout import snapshot_size
-from shoal.viz.legend import legend_height, map_legend_height, short_name
-from shoal.viz.scene import Parts
-from shoal.viz.snapshot import draw_snapshot, frames_of
-from shoal.viz.stretch import frame_of
-from shoal.viz.style import new_figure, style
-from shoal.viz.summary import summary_figure
-from shoal.viz.sweep import Curve, draw_sweep, sweep_page
-from shoal.viz.trajectory_map import draw_trajectory_map
-from shoal.viz.words import field_words
+from shoal.run.simulation import Simulation
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

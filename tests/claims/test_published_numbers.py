@@ -8,7 +8,7 @@ of the 14 values of k; the tolerances are above what 50,000 steps leave to chanc
 import pytest
 
 from scenarios import scenario
-from shoal.runs import simulate
+from shoal.run.simulate import simulate
 
 pytestmark = pytest.mark.slow
 

@@ -107,7 +107,7 @@ class TestStore:
         assert found["mine"]["missing"] == 3
         assert (found["mine"]["rank"], found["mine"]["mean"], found["mine"]["verdict"]) == (None, None, "too few runs")
         assert "3 runs failed" in err
-        assert "no finite number" in err
+        assert "not finite" in err
 
 
 class TestFigure:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from shoal.cli.main import run_command
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 DATA = Path(__file__).parents[1] / "data"
 TINY, RECORD, SWEEP = "tiny.toml", "record", "sweep"

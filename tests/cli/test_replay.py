@@ -8,7 +8,7 @@ import pytest
 from frames import decode_all
 from scenarios import scenario
 from shoal.cli.main import run_command
-from shoal.runs import simulate
+from shoal.run.simulate import simulate
 
 
 def replay(*tokens):

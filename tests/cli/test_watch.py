@@ -16,7 +16,7 @@ import pytest
 from scenarios import scenario
 from shoal.cli.main import BAD_INPUT, run_command
 from shoal.record.files import open_record
-from shoal.runs import simulate
+from shoal.run.simulate import simulate
 
 SOON = 120.0  # [s] a busy machine may take that long, and may compile
 
@@ -157,7 +157,7 @@ class TestBadInput:
 
 
 def test_a_missing_library_is_named_before_anything_is_compiled(monkeypatch, capsys):
-    monkeypatch.setattr("shoal.view.server.find_spec", lambda name: None)
-    monkeypatch.setattr("shoal.view.session.Session.__init__", lambda *_, **__: pytest.fail("it was compiled"))
+    monkeypatch.setattr("shoal.viewer.server.find_spec", lambda name: None)
+    monkeypatch.setattr("shoal.viewer.session.Session.__init__", lambda *_, **__: pytest.fail("it was compiled"))
     assert run_command(["watch", "oceans2020", "--no-browser"]) == BAD_INPUT
     assert "starlette: is not installed" in capsys.readouterr().err

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scenarios import fleets, scenario, small
-from shoal.runs import simulate
-from shoal.simulation import Simulation
+from shoal.run.simulate import simulate
+from shoal.run.simulation import Simulation
 
 STEPS = 120
 SIZES = {2: 1, 3: 2, 64: 20, 65: 64, 500: 7}  # agents: neighbors
@@ -83,8 +83,8 @@ class TestCutting:
             assert frames.vy[t].tolist() == swarm.vy[:65].tolist()
             assert frames.memory["repulsion"][t].tolist() == stepped.minds.memory["repulsion"][:65].tolist()
             assert (frames.target_x[t, 0], frames.target_y[t, 0]) == (target["x"], target["y"])
-            stepped.advance(1)
             assert frames.on_target[t].tolist() == swarm.on_target[:65].tolist()
+            stepped.advance(1)
 
 
 class TestSaving:
@@ -189,8 +189,9 @@ class TestCrowds:
     def test_stay_finite_in_the_arena_and_below_their_top_speed(self, name, agents, order):
         simulation = Simulation(swarm_of(agents, order))
         swarm = simulation.swarm
-        swarm.x[:agents], swarm.y[:agents] = crowd(name, agents)
-        simulation.targets["x"], simulation.targets["y"] = swarm.x[0], swarm.y[0]  # the target on top of them
+        with simulation.edit() as now:
+            now.swarm.x[:agents], now.swarm.y[:agents] = crowd(name, agents)
+            now.targets["x"], now.targets["y"] = swarm.x[0], swarm.y[0]  # the target on top of them
         for _ in range(STEPS):
             simulation.advance(1)
             assert np.isfinite([swarm.x, swarm.y, swarm.vx, swarm.vy]).all()
@@ -212,7 +213,8 @@ class TestCrowds:
     )
     def test_stay_finite_under_any_exponent(self, exponent):
         simulation = Simulation(swarm_of(64, **{"strategy.repulsion_exponent": exponent}))
-        simulation.swarm.x[:64], simulation.swarm.y[:64] = crowd("two heaps", 64)
+        with simulation.edit() as now:
+            now.swarm.x[:64], now.swarm.y[:64] = crowd("two heaps", 64)
         simulation.advance(STEPS)
         assert np.isfinite([simulation.swarm.x, simulation.swarm.y]).all()
 
@@ -220,7 +222,8 @@ class TestCrowds:
         ends = []
         for chunk in (1, 30, STEPS):
             simulation = Simulation(swarm_of(65))
-            simulation.swarm.x[:65], simulation.swarm.y[:65] = crowd("two heaps", 65)
+            with simulation.edit() as now:
+                now.swarm.x[:65], now.swarm.y[:65] = crowd("two heaps", 65)
             while simulation.number < STEPS:
                 simulation.advance(chunk)
             ends.append(bits(simulation))
@@ -266,7 +269,8 @@ class TestTies:
             },
         )
         simulation = Simulation(chosen)
-        simulation.swarm.x[:64], simulation.swarm.y[:64] = x, y
+        with simulation.edit() as now:
+            now.swarm.x[:64], now.swarm.y[:64] = x, y
         simulation.advance(1)
         velocity = np.stack([simulation.swarm.vx[:64], simulation.swarm.vy[:64]], axis=1)
         np.testing.assert_allclose(velocity * chosen.time_step, self.pushes(x, y, neighbors), rtol=1e-12, atol=1e-13)

@@ -3,7 +3,7 @@
 import pytest
 
 from scenarios import scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 STEPS = 200
 FLEETS = ("fleets.0", "fleets.1")
@@ -11,7 +11,7 @@ NEUTRAL = {
     "a range beyond the arena": {"network.range": 1e4},
     "a loss that never happens": {"network.loss": 1e-300},
     "a false alarm that never happens": {f"{fleet}.false_alarm_probability": 1e-300 for fleet in FLEETS},
-    "a loss of agents after the end": {"losses": [{"step": STEPS, "count": 10}]},
+    "a loss of agents after the end": {"losses": [{"step": STEPS + 1, "count": 10}]},
     "a lifetime beyond the end": {f"{fleet}.mean_lifetime": 1e12 for fleet in FLEETS},
     "limits beyond what agents do": {f"{fleet}.max_acceleration": 1e12 for fleet in FLEETS}
     | {f"{fleet}.max_turn_rate": 1e12 for fleet in FLEETS},

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from scenarios import fleets, scenario, small
 from shoal.core.units import Unit
 from shoal.metrics.summary import METRICS, evaluate
-from shoal.scenario.facts import facts_of
+from shoal.run.facts import facts_of
+from shoal.run.simulation import Simulation
 from shoal.scenario.load import scenario_from
-from shoal.simulation import Simulation
 from shoal.strategies import CATALOGUE
 
 ORDERS = ["synchronous", "sequential"]
@@ -51,15 +51,17 @@ def state_of(simulation):
 def twin(simulation, chosen, state):
     """A simulation of another scenario at the same step, in a given state."""
     other = Simulation(chosen, simulation.run)
-    n, swarm, target = chosen.agents, other.swarm, other.targets[0]
+    n = chosen.agents
     other.number = simulation.number
-    swarm.x[:n], swarm.y[:n] = state["places"]
-    swarm.vx[:n], swarm.vy[:n] = state["velocities"]
-    other.minds.memory["repulsion"][:n] = state["repulsion"][0]
-    target["x"], target["y"] = state["target"]
-    target["heading_x"], target["heading_y"] = state["heading"]
-    target["waypoint_x"], target["waypoint_y"] = state["waypoint"]
-    target["waypoint_age"] = simulation.targets[0]["waypoint_age"]
+    with other.edit() as now:
+        swarm, target = now.swarm, now.targets[0]
+        swarm.x[:n], swarm.y[:n] = state["places"]
+        swarm.vx[:n], swarm.vy[:n] = state["velocities"]
+        swarm.memory[:n, other.memory_fields.index("repulsion")] = state["repulsion"][0]
+        target["x"], target["y"] = state["target"]
+        target["heading_x"], target["heading_y"] = state["heading"]
+        target["waypoint_x"], target["waypoint_y"] = state["waypoint"]
+        target["waypoint_age"] = simulation.targets[0]["waypoint_age"]
     return other
 
 
@@ -108,7 +110,7 @@ class TestNumbering:
         simulation = met_along_a_run(chosen, steps)
         order = np.random.default_rng(seed).permutation(50)
         other = twin(simulation, chosen, renumbered(state_of(simulation), order))
-        other.swarm.max_speed[:50] = other.swarm.max_speed[:50][order]
+        other._swarm.max_speed[:50] = other.swarm.max_speed[:50][order]
         simulation.advance(1)
         other.advance(1)
         assert_same(state_of(other), renumbered(state_of(simulation), order), 1e-12)

@@ -9,8 +9,8 @@ from coasting import coasting
 from scenarios import small
 from shoal.metrics.closest import EVERY
 from shoal.metrics.summary import evaluate
-from shoal.scenario.facts import facts_of
-from shoal.simulation import Simulation
+from shoal.run.facts import facts_of
+from shoal.run.simulation import Simulation
 
 
 def closest(simulation):

@@ -11,7 +11,7 @@ from coasting import coasting
 from shoal.metrics.contacts import tally_contacts
 from shoal.metrics.summary import evaluate
 from shoal.metrics.tally import new_tally
-from shoal.scenario.facts import facts_of
+from shoal.run.facts import facts_of
 from shoal.world.targets import TARGET
 
 

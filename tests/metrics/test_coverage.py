@@ -7,8 +7,8 @@ from coasting import coasting
 from scenarios import scenario, small
 from shoal.metrics.coverage import CELLS, WINDOW, reachable
 from shoal.metrics.summary import evaluate
-from shoal.scenario.facts import facts_of
-from shoal.simulation import Simulation
+from shoal.run.facts import facts_of
+from shoal.run.simulation import Simulation
 
 
 def metrics_of(simulation):

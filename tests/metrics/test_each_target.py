@@ -7,7 +7,7 @@ from scenarios import scenario
 from shoal.metrics.each_target import each_target, loss_lengths
 from shoal.metrics.summary import METRICS, Facts
 from shoal.metrics.tally import new_tally
-from shoal.runs import simulate
+from shoal.run.simulate import simulate
 
 FACTS = Facts(fleets=("one",), counts=(4,), max_speeds=(1.0,), unit=1.0, time_step=0.5)
 

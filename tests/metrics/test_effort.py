@@ -6,8 +6,8 @@ import pytest
 from coasting import coasting
 from scenarios import scenario
 from shoal.metrics.summary import evaluate, fleet_power
-from shoal.scenario.facts import facts_of
-from shoal.simulation import Simulation
+from shoal.run.facts import facts_of
+from shoal.run.simulation import Simulation
 
 SLOW = [(0.5, 0.0), (0.0, 0.3), (0.0, 0.0)]
 PLACES = [(-5.0, 0.0), (0.0, -5.0), (5.0, 5.0)]

@@ -12,8 +12,8 @@ from scenarios import fleets, scenario
 from shoal.metrics.graph import tally_graph
 from shoal.metrics.summary import evaluate
 from shoal.metrics.tally import new_tally
-from shoal.scenario.facts import facts_of
-from shoal.simulation import Simulation
+from shoal.run.facts import facts_of
+from shoal.run.simulation import Simulation
 from shoal.world.arena import World
 from shoal.world.neighbors import new_links
 

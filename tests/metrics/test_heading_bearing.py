@@ -82,12 +82,14 @@ class TestPhi:
 
     def test_a_target_that_is_not_there_does_not_count(self):
         simulation = coasting([(5.0, 0.0), FAR], [(-1, 0), (0, 0)], [(0, 0), (6, 0)], makes=[(1, 1.0), (1, 1.0)])
-        simulation.targets["present"] = [1, 0]
+        with simulation.edit() as now:
+            now.targets["present"] = [1, 0]
         assert bins_of(simulation) == [10]
 
     def test_without_any_target_nothing_is_counted(self):
         simulation = coasting([(5.0, 0.0), FAR], [(-1, 0), (0, 0)])
-        simulation.targets["present"] = 0
+        with simulation.edit() as now:
+            now.targets["present"] = 0
         assert bins_of(simulation) == []
         assert simulation.tally.stationary.sum() == 0
 

@@ -7,7 +7,7 @@ import pytest
 
 from coasting import coasting
 from shoal.metrics.summary import evaluate
-from shoal.scenario.facts import facts_of
+from shoal.run.facts import facts_of
 
 STAY = [(0, 0), (0, 0), (0, 0)]
 
@@ -56,14 +56,16 @@ class TestTime:
     def test_steps_without_a_target_do_not_count(self):
         simulation = coasting([(0, 0), (9, 9), (9, -9)], STAY)
         simulation.advance(5)
-        simulation.targets["present"] = 0
+        with simulation.edit() as now:
+            now.targets["present"] = 0
         assert measured("time_on_target", simulation)[0] == 1.0
         assert measured("target_present", simulation)[0] == 0.25
         assert simulation.tally.engaged.sum() == 5
 
     def test_is_no_number_where_no_target_ever_was(self):
         simulation = coasting([(0, 0), (9, 9), (9, -9)], STAY)
-        simulation.targets["present"] = 0
+        with simulation.edit() as now:
+            now.targets["present"] = 0
         for name in ("time_on_target", "engaged", "stationary"):
             mean, batches = measured(name, simulation)
             assert math.isnan(mean)

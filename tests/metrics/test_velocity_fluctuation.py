@@ -10,7 +10,7 @@ from hypothesis.extra import numpy as npst
 
 from coasting import coasting
 from shoal.metrics.summary import evaluate, fleet_fluctuation
-from shoal.scenario.facts import facts_of
+from shoal.run.facts import facts_of
 
 RING = [(5 * math.cos(a), 5 * math.sin(a)) for a in np.arange(8) * math.pi / 4]
 
@@ -57,7 +57,8 @@ class TestFluctuation:
 
     def test_does_not_mind_whether_a_target_is_there(self):
         simulation = coasting(RING[:2], [(0.5, 0.0), (-0.5, 0.0)])
-        simulation.targets["present"] = 0
+        with simulation.edit() as now:
+            now.targets["present"] = 0
         simulation.advance(1)
         assert simulation.tally.fluctuation.sum() == pytest.approx(1.0)
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from shoal.core.errors import MissingExtraError
+from shoal.drawing.files import save_figure
 from shoal.paper.figures import make_aamas_figures, make_figures, make_study_figures
 from shoal.paper.figures_series import TIME_ON_TARGET, plain_rows, series, spread, where
 from shoal.paper.plan import VARIANTS
 from shoal.paper.results import Reproduction
 from shoal.paper.side_plan import settings
-from shoal.viz.files import save_figure
 
 STEPS = 300
 KS = (2, 10, 15, 18, 20, 22, 25, 30, 40, 49)

@@ -5,10 +5,10 @@ from html.parser import HTMLParser
 import pytest
 
 from shoal.core.errors import RecordError
+from shoal.drawing.style import new_figure, style
 from shoal.paper.report import to_csv, write_report
 from shoal.paper.report_tables import interval_text, number_text
 from shoal.paper.results import Claim, Figure, Reproduction
-from shoal.viz.style import new_figure, style
 
 NAN = float("nan")
 VOID = {"meta", "link", "img", "br", "hr"}

@@ -18,10 +18,10 @@ from shoal.cli.table import print_record
 from shoal.core.errors import RecordError
 from shoal.record.content import sum_of_content
 from shoal.record.files import open_record
-from shoal.runs import simulate
+from shoal.run.simulate import simulate
 from shoal.scenario.load import load
 from shoal.version import RESULTS_VERSION
-from shoal.view.replay import replay_page
+from shoal.viewer.replay import replay_page
 
 DATA = Path(__file__).parents[1] / "data"
 

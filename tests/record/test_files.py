@@ -13,7 +13,7 @@ from shoal.core.errors import RecordError
 from shoal.record import files
 from shoal.record.files import RecordFolder, open_record, save_record
 from shoal.record.trajectory import TrajectoryWriter
-from shoal.runs import simulate
+from shoal.run.simulate import simulate
 
 STEPS = 400
 

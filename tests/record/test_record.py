@@ -8,7 +8,7 @@ import pytest
 from scenarios import scenario
 from shoal.metrics.summary import METRICS
 from shoal.record.statistics import estimate
-from shoal.runs import simulate
+from shoal.run.simulate import simulate
 
 
 @pytest.fixture(scope="module")

@@ -3,9 +3,9 @@
 import pytest
 
 from scenarios import scenario
+from shoal.run.simulation import Simulation
 from shoal.scenario.load import scenario_from
 from shoal.scenario.on_track import scale_lengths
-from shoal.simulation import Simulation
 
 RICH = {
     "steps": 300,

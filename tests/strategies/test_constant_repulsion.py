@@ -1,7 +1,7 @@
 """Constant repulsion is knn-pso whose repulsion does not adapt."""
 
 from scenarios import scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 
 def after(strategy):

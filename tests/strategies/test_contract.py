@@ -9,9 +9,9 @@ import pytest
 from scenarios import scenario
 from shoal.core.errors import ScenarioError, StrategyError
 from shoal.metrics.summary import evaluate
-from shoal.scenario.facts import facts_of
+from shoal.run.facts import facts_of
+from shoal.run.simulation import Simulation
 from shoal.scenario.load import load, scenario_from, to_toml
-from shoal.simulation import Simulation
 from shoal.strategies import CATALOGUE, strategy
 
 STEPS = 300
@@ -270,7 +270,7 @@ class TestErrors:
         [
             ("raise ValueError('no')", r":\d+: strategy 'drifter' raised ValueError: no"),
             ("memory.course = 1.0", "'course' is no field of a memory"),
-            ("return 1.0", "return two numbers"),
+            ("return 1.0", "returns two numbers"),
         ],
     )
     def test_a_function_that_fails_as_it_is_compiled_or_run(self, tmp_path, line, says):

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from scenarios import scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 from shoal.strategies import CATALOGUE
-from staging import DT, NOWHERE, places, put, staged, wanted
+from staging import DT, NOWHERE, memory_of, places, put, staged, wanted
 
 FAR = (8.0, 8.0)
 
@@ -22,7 +22,7 @@ def memories(simulation, *fields):
 def believing(place, estimate, velocity=(0.0, 0.0), *, target=NOWHERE, contact=0.0, was_on=0.0):
     """An agent at a place, in contact at a time, with an estimate; another one is far away."""
     simulation = staged("encircle", [place, FAR], targets=[target])
-    memory = simulation.minds.memory
+    memory = memory_of(simulation)
     memory["x"][0], memory["y"][0] = estimate
     memory["vx"][0], memory["vy"][0] = velocity
     memory["speed"][0] = math.hypot(*velocity) or 1.0
@@ -92,7 +92,7 @@ class TestEstimate:
 
     def test_a_leader_on_target_draws_it_to_the_rim_around_the_leader(self):
         simulation = staged("encircle", [(-5.0, 0.0), (5.0, 0.0)], targets=[(5.0, 0.5)])
-        memory = simulation.minds.memory
+        memory = memory_of(simulation)
         memory["x"][0], memory["y"][0], memory["contact"][0] = 5.0, 3.0, 0.0
         simulation.advance(1)
         assert memories(simulation, "x", "y")[0] == pytest.approx([5.0, 1.0])
@@ -120,7 +120,7 @@ class TestRing:
     def goal(self, station, estimate, *, speed=1.0, top=1.0):
         """Where an agent on its station wants to be, with a fresh estimate of this speed, alone."""
         simulation = staged(("encircle", {"lead": 0.0}), [station, FAR], top=top)
-        memory = simulation.minds.memory
+        memory = memory_of(simulation)
         memory["station_x"][0], memory["station_y"][0] = station
         memory["x"][0], memory["y"][0] = estimate
         memory["speed"][0], memory["contact"][0] = speed, 0.0
@@ -135,7 +135,7 @@ class TestRing:
     def test_the_ring_is_ahead_by_a_share_of_the_time_to_get_there(self):
         """0.1 of 5 m at 1 m/s is 0.5 s, in which the estimate goes 1 m."""
         simulation = staged(("encircle", {"ring": 0.0, "chase": 1e9}), [(0.0, 0.0), FAR], top=1.0)
-        memory = simulation.minds.memory
+        memory = memory_of(simulation)
         memory["x"][0], memory["y"][0], memory["contact"][0] = 3.0 - DT * 1.6, 4.0 + DT * 1.2, 0.0
         memory["vx"][0], memory["vy"][0], memory["speed"][0] = 1.6, -1.2, 2.0
         assert wanted(simulation)[0] == pytest.approx(np.array([3.8, 3.4]) / math.hypot(3.8, 3.4))
@@ -145,7 +145,7 @@ class TestRing:
         goals = []
         for push in (0.0, 0.3):
             simulation = staged(("encircle", {"push": push, "lead": 0.0}), [(0.0, 0.0), (1.0, 0.0), (0.0, -3.0)])
-            memory = simulation.minds.memory
+            memory = memory_of(simulation)
             memory["x"][0], memory["y"][0], memory["speed"][0], memory["contact"][0] = 3.0, 4.0, 1.0, 0.0
             goals.append(DT * wanted(simulation)[0])
         assert goals[1] - goals[0] == pytest.approx([-0.9, 0.0], abs=1e-5)

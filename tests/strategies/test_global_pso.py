@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from scenarios import scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 from staging import DT, chance, staged, wanted
 
 

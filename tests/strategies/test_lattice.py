@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from scenarios import fleets, scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 
 def covering(*makes, **params):

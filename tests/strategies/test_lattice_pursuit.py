@@ -32,7 +32,8 @@ def test_the_distance_counts_from_the_station_not_from_the_agent():
 
 def test_a_target_that_is_not_there_is_not_pursued():
     simulation = staged("lattice-pursuit", [HOME, (4.1, 0.0)], targets=[(-4.1, 1.0)], top=1.0)
-    simulation.targets["present"] = 0
+    with simulation.edit() as now:
+        now.targets["present"] = 0
     put(simulation, [(0.0, 5.0), (0.0, -5.0)])
     memory = simulation.minds.memory[:2]
     home = np.stack([memory["station_x"], memory["station_y"]], axis=1) - [(0.0, 5.0), (0.0, -5.0)]

@@ -22,5 +22,6 @@ def test_catches_a_target_that_waits_after_distance_over_speed():
 
 def test_waits_while_no_target_is_there():
     simulation = staged("pursuit", [(0, 0), (5, 5)], targets=[(3, 4)], top=1.0)
-    simulation.targets["present"] = 0
+    with simulation.edit() as now:
+        now.targets["present"] = 0
     assert not wanted(simulation).any()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from staging import DT, chance, put, staged, wanted
+from staging import DT, chance, memory_of, put, staged, wanted
 
 STILL = {"inertia": 0.0, "social": 0.0, "repulsion_step": 0.0}
 
@@ -16,8 +16,9 @@ def chain(**changes):
 
 def tell(simulation, agent, x, y, time):
     """Let an agent know of a sighting."""
-    for minds in (simulation.minds.memory, simulation.minds.told):
-        minds["sighting_x"][agent], minds["sighting_y"][agent], minds["sighting_time"][agent] = x, y, time
+    memory, told = memory_of(simulation), simulation._swarm.told
+    memory["sighting_x"][agent], memory["sighting_y"][agent], memory["sighting_time"][agent] = x, y, time
+    told[agent] = simulation.swarm.memory[agent, : told.shape[1]]
 
 
 def test_it_spreads_by_one_hop_in_a_step():

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from shoal.core.errors import ScenarioError
+from shoal.run.simulation import Simulation
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import read_table, scenario_from
-from shoal.simulation import Simulation
 
 
 def team(fast=None, slow=None, **changes):

@@ -98,7 +98,7 @@ class TestLooks:
         ({"neighbours": [1]}, {}, "did you mean 'neighbors'"),
         ({"neighbors": [10, 60]}, {}, "at most 49"),
         ({"neighbors": []}, {}, "has no values"),
-        ({"neighbors": [object()]}, {}, "give a number"),
+        pytest.param({"neighbors": [object()]}, {}, "give a number", id="an object"),
         (["neighbors"], {}, 'write vary={"neighbors"'),
         ({5: [1]}, {}, 'write vary={"neighbors"'),
         ({"neighbors": [1]}, {"until": 3}, "did you mean 'until_ci'"),

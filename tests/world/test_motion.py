@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from scenarios import scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 OPEN = {
     "area.width": 1e3, "area.height": 1e3, "fleets.0.start": "center", "fleets.1.start": "center",  # far from walls
@@ -42,7 +42,8 @@ class TestAcceleration:
             "strategy": "pursuit", "targets": [{"kind": "still", "radius": 1.0, "x": 400.0}],
         }  # fmt: skip
         simulation = Simulation(scenario("oceans2020", {**OPEN, **changes}))
-        simulation.swarm.y[:2] = 0.0
+        with simulation.edit() as now:
+            now.swarm.y[:2] = 0.0
         frames = simulation.advance(60, every=1)
         assert frames.vx[:, 0] == pytest.approx(np.minimum(0.05 * np.arange(60), 2.0))
 
@@ -67,7 +68,8 @@ class TestTurnRate:
             "strategy": "pursuit", "targets": [{"kind": "still", "radius": 1.0, "x": -400.0, "y": -400.0}],
         }  # fmt: skip
         simulation = Simulation(scenario("oceans2020", {**OPEN, **changes}))
-        simulation.swarm.vx[:2], simulation.swarm.x[:2], simulation.swarm.y[:2] = 1.0, 0.0, 0.0
+        with simulation.edit() as now:
+            now.swarm.vx[:2], now.swarm.x[:2], now.swarm.y[:2] = 1.0, 0.0, 0.0
         frames = simulation.advance(30, every=1)
         headings = np.degrees(np.arctan2(frames.vy[:, 0], frames.vx[:, 0]))
         assert headings[:22] == pytest.approx(-6.0 * np.arange(22))

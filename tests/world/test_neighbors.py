@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from shoal.world.neighbors import link_nearest, measure_distances, new_links, settle_ties
+from shoal.world.neighbors import link_nearest, measure_distances, new_links, rank_heard, settle_ties
 
 PADDING = 8
 
@@ -140,6 +140,25 @@ class TestTies:
         links.heard[:] = (links.square <= links.reach).sum(axis=0)
         assert links.heard.tolist() == [6] * 20
         assert not settle_ties(links, k, 20)
+
+
+class TestRanks:
+    """How many of those heard are nearer."""
+
+    @given(swarm=swarms(), reach=st.sampled_from([0.0, 1.0, 30.0, 1e9]))
+    @settings(max_examples=200)
+    def test_are_places_in_the_sorted_list_of_those_heard(self, swarm, reach):
+        x, y, _ = swarm
+        agents = len(x)
+        links = new_links(agents, agents, ranked=True)
+        measure_distances(links, x, y, x, y, 0, agents)
+        links.reach[:] = reach
+        rank_heard(links, agents)
+        for i in range(agents):
+            square = links.square[:agents, i]
+            order = [j for j in np.lexsort((np.arange(agents), square)) if square[j] <= reach]
+            assert links.rank[order, i].tolist() == list(range(len(order)))
+            assert (np.delete(links.rank[:agents, i], order) == agents).all()
 
 
 class TestDistances:

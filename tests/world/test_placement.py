@@ -6,9 +6,9 @@ import pytest
 import replay
 from replay import START_STEP, TARGET_STREAM, split, target_box, uniform
 from scenarios import fleets, scenario
-from shoal.runs import simulate
+from shoal.run.simulate import simulate
+from shoal.run.simulation import Simulation
 from shoal.scenario.load import load
-from shoal.simulation import Simulation
 
 PLACEMENT = 2**20
 

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from scenarios import fleets, scenario
 from shoal.core.agents import NEVER, new_swarm
 from shoal.core.draws import split
+from shoal.run.simulation import Simulation
 from shoal.scenario.load import read_table, scenario_from
-from shoal.simulation import Simulation
 from shoal.world.neighbors import link_nearest, measure_distances, new_links, settle_ties
 from shoal.world.radio import begin_degree, limit_links, lose_reports, new_radio, said, send
 
@@ -203,7 +203,8 @@ class TestDelay:
         swarm = simulation.swarm
         track = []
         for number in range(20):
-            swarm.x[:2], swarm.y[:2] = [-300.0 + number, 400.0], 0.0  # the first is on target and drawn along by hand
+            with simulation.edit() as now:  # the first is on target and drawn along by hand
+                now.swarm.x[:2], now.swarm.y[:2] = [-300.0 + number, 400.0], 0.0
             track.append(swarm.x[0])
             simulation.advance(1)
             if number >= 4:
@@ -240,7 +241,8 @@ class TestTruth:
         heard = np.zeros(50, bool)
         for simulation, shift in ((one, 0.0), (other, 3.0)):
             simulation.advance(steps)
-            simulation.swarm.x[agent] -= np.copysign(shift, simulation.swarm.x[agent])
+            with simulation.edit() as now:
+                now.swarm.x[agent] -= np.copysign(shift, now.swarm.x[agent])
             simulation.advance(1)
             links = simulation._scratch.links
             heard |= (links.square <= links.reach)[agent, :50]
@@ -254,7 +256,8 @@ class TestTruth:
         one, other = Simulation(chosen), Simulation(chosen)
         one.advance(100)
         other.advance(100)
-        other.swarm.x[0] += 0.25
+        with other.edit() as now:
+            now.swarm.x[0] += 0.25
         for step in range(6):
             one.advance(1)
             other.advance(1)
@@ -273,10 +276,11 @@ class TestAdaptiveDegree:
         simulation = Simulation(scenario("oceans2020", changes))
         swarm, contact = simulation.swarm, np.full(50, 16 / 26)
         for _ in range(300):
+            on_target = swarm.on_target[:50].copy()
             simulation.advance(1)
             links = simulation._scratch.links
             linked = (links.square <= links.reach)[:50, :50]
-            hears = swarm.on_target[:50] | (linked & swarm.on_target[:50, None]).any(axis=0)
+            hears = on_target | (linked & on_target[:, None]).any(axis=0)
             contact += 0.1 / 2.0 * (hears - contact)
             assert swarm.contact[:50] == pytest.approx(contact, abs=1e-12)
             assert (swarm.neighbors[:50] == np.floor(4 + 26 * swarm.contact[:50] + 0.5)).all()

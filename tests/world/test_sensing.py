@@ -5,7 +5,7 @@ import pytest
 
 from coasting import coasting
 from scenarios import fleets, scenario
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 
 STAY = [(0.0, 0.0)] * 3
 PLACES = [(0.0, 0.0), (9.0, 9.0), (9.0, -9.0)]
@@ -27,14 +27,16 @@ class TestRange:
         changes = {"fleets": makes, "network.neighbors": 1, "targets": [still]}
         for agent, sees in enumerate((fast, slow)):
             simulation = Simulation(scenario("oceans2020", changes))
-            simulation.swarm.x[:2], simulation.swarm.y[:2] = 9.0, 9.0
-            simulation.swarm.x[agent], simulation.swarm.y[agent] = distance, 0.0
+            with simulation.edit() as now:
+                now.swarm.x[:2], now.swarm.y[:2] = 9.0, 9.0
+            with simulation.edit() as now:
+                now.swarm.x[agent], now.swarm.y[agent] = distance, 0.0
             simulation.advance(1)
             assert simulation.tally.engaged.sum() == sees
 
     def test_has_the_target_radius_in_it(self):
         simulation = coasting(PLACES, STAY, targets=[(4.0, 0.0), (4.0, 0.0)])
-        simulation.targets["radius"] = 3.9, 4.0
+        simulation._targets["radius"] = 3.9, 4.0
         simulation.advance(1)
         assert simulation.tally.watched.sum(axis=0).tolist() == [0.0, 1.0]
 
@@ -114,6 +116,7 @@ class TestFalseAlarms:
 
     def test_are_raised_while_the_target_is_down_too(self):
         simulation = coasting([(9, 9), (9, -9), (-9, 9)], STAY, **{"fleets.0.false_alarm_probability": 1.0})
-        simulation.targets["present"] = 0
+        with simulation.edit() as now:
+            now.targets["present"] = 0
         simulation.advance(5)
         assert simulation.swarm.on_target[:3].all()

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import replay
 from scenarios import scenario
 from shoal.core.agents import new_swarm
-from shoal.simulation import Simulation
+from shoal.run.simulation import Simulation
 from shoal.tracks.track import position_at
 from shoal.world.targets import KINDS, TARGET, Tracks, advance_target
 
@@ -103,9 +103,10 @@ class TestTrack:
         simulation = Simulation(scenario("oceans2020", {"time_step": 0.5}))
         track = SimpleNamespace(time=np.array([0.0, 20.0]), x=np.array([-8.0, 8.0]), y=np.zeros(2), max_gap=100.0)
         simulation.tracks = Tracks(track.time, track.x, track.y)
-        simulation.targets["kind"], simulation.targets["fixes"] = KINDS.index("track"), 2
-        simulation.targets["max_gap"] = track.max_gap
-        simulation.targets["x"], simulation.targets["y"] = -8.0, 0.0
+        make = simulation._targets
+        make["kind"], make["fixes"], make["max_gap"] = KINDS.index("track"), 2, track.max_gap
+        with simulation.edit() as now:
+            now.targets["x"], now.targets["y"] = -8.0, 0.0
         frames = simulation.advance(60, every=1)
         x, _, present = position_at(track, 0.5 * frames.step)
         assert frames.target_present[:, 0].tolist() == present.tolist()

@@ -1,4 +1,4 @@
-// One palette for canvas and page, that of shoal's figures (src/shoal/viz/style.py): Okabe and Ito, 2008.
+// One palette for canvas and page, that of shoal's figures (src/shoal/drawing/style.py): Okabe and Ito, 2008.
 
 import { svg } from "./dom";
 

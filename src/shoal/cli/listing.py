@@ -28,9 +28,9 @@ def strategies(*, json_: Annotated[bool, Parameter(name="--json", negative=())] 
     json_
         Print a JSON list with every parameter, its default and its unit.
     """
-    from shoal.scenario.installed import load_all_installed
     from shoal.scenario.strategy_choice import params_model
     from shoal.strategies import CATALOGUE
+    from shoal.strategies.installed import load_all_installed
 
     for error in load_all_installed():
         note(str(error))

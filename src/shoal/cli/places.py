@@ -15,7 +15,7 @@ def check_places(out: Path | None, figure: Path | None) -> None:
     """
     if figure is None:
         return
-    from shoal.viz.files import check_figure, figure_format
+    from shoal.drawing.files import check_figure, figure_format
 
     folder = os.path.realpath(out) if out else None
     if folder == os.path.realpath(figure):

@@ -33,9 +33,9 @@ def replay(
     load_compiler()
     from shoal.core.errors import ScenarioError
     from shoal.core.files import check_file, write_whole
-    from shoal.runs import simulate
+    from shoal.run.simulate import simulate
     from shoal.scenario.load import load
-    from shoal.view.replay import replay_page
+    from shoal.viewer.replay import replay_page
 
     if frames < 1:
         raise ScenarioError("--frames", f"is {frames}", "ask for 1 or more")

@@ -88,9 +88,9 @@ def plot(
     figure
         Picture to draw (.png, .svg or .pdf); default plot.png in the folder.
     """
+    from shoal.drawing.files import check_figure
     from shoal.experiments.results import read_rows
     from shoal.plot import curves, save
-    from shoal.viz.files import check_figure
 
     _tell_of(read_rows(folder)[1])
     target = figure or folder / "plot.png"

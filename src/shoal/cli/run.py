@@ -75,7 +75,7 @@ def run(
         Print one JSON object and nothing else.
     """
     load_compiler()
-    from shoal.runs import simulate
+    from shoal.run.simulate import simulate
     from shoal.scenario.load import read_table, scenario_from
 
     changes: dict[str, Any] = {

@@ -32,7 +32,7 @@ def show(
     from shoal.cli.table import print_record
 
     if figure:
-        from shoal.viz.files import check_figure
+        from shoal.drawing.files import check_figure
 
         check_figure(figure)
     known = opened(record)

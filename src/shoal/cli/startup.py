@@ -26,8 +26,8 @@ def load_compiler() -> None:
 
 def tell_of_compiling(scenario: "Scenario") -> None:
     """Say so if the first step will compile the engine for this strategy."""
-    from shoal.compiling import engine_is_compiled, needs_compiling
-    from shoal.core.kernel import why_uncached
+    from shoal.compiler.kernel import why_uncached
+    from shoal.run.compiling import engine_is_compiled, needs_compiling
     from shoal.scenario.crew import crew_of
 
     if needs_compiling(scenario):

@@ -14,7 +14,7 @@ from shoal.cli.startup import load_compiler, tell_of_compiling
 from shoal.cli.whole import MaybeSteps, MaybeWhole, Number, Whole
 
 if TYPE_CHECKING:
-    from shoal.view.session import Session
+    from shoal.viewer.session import Session
 
 
 def watch(
@@ -80,7 +80,7 @@ def watch(
     """
     load_compiler()
     from shoal.core.errors import ScenarioError
-    from shoal.view.server import require_libraries
+    from shoal.viewer.server import require_libraries
 
     require_libraries()  # missing ones are named now, not after compiling
 
@@ -118,9 +118,9 @@ def _watch(
 ) -> None:
     from shoal.record.files import RecordFolder
     from shoal.scenario.load import scenario_from
-    from shoal.view.server import live_app, serving
-    from shoal.view.session import Session
-    from shoal.view.worker import Worker
+    from shoal.viewer.server import live_app, serving
+    from shoal.viewer.session import Session
+    from shoal.viewer.worker import Worker
 
     scenarios = [scenario_from(table, where=name) for table, name in zip(tables, names, strict=False)]
     for scenario in {each.strategy.name: each for each in scenarios}.values():
@@ -151,7 +151,7 @@ def _watch(
 
 def _record(session: "Session", out: Path) -> None:
     """Save what was watched: the same steps of the same scenario and seed again, which are the same bits."""
-    from shoal.runs import simulate
+    from shoal.run.simulate import simulate
     from shoal.scenario.schema import Scenario
 
     whole = session.runs[0].simulation.scenario
@@ -164,8 +164,8 @@ def _record(session: "Session", out: Path) -> None:
 def _play_record(folder: str, host: str, port: int, browser: bool) -> None:
     from threading import Event
 
-    from shoal.view.replay import replay_page
-    from shoal.view.server import page_app, serving
+    from shoal.viewer.replay import replay_page
+    from shoal.viewer.server import page_app, serving
 
     page = replay_page(opened(folder))
     with suppress(KeyboardInterrupt), serving(page_app(page), host, port) as address:
@@ -184,7 +184,7 @@ def _other(table: dict[str, Any], against: str) -> dict[str, Any]:
 
 
 def _announce(address: str, host: str, browser: bool) -> None:
-    from shoal.view.address import is_local
+    from shoal.viewer.address import is_local
 
     note(f"watch at {address} (Ctrl-C ends)")
     if not is_local(host):

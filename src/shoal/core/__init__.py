@@ -1,1 +1,1 @@
-"""The vocabulary everybody shares; imports nothing of ours."""
+"""The vocabulary everybody shares; of ours it imports the compiler only."""

@@ -1,8 +1,9 @@
-"""What an agent knows, what it says, what it heard, and the whole swarm as arrays.
+"""The whole swarm as arrays; what one agent knows, says and hears is in messages.py.
 
 All SI: positions [m] in the arena's frame (origin at its center), velocities [m/s].
 """
 
+from collections import namedtuple
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,98 +20,14 @@ def aligned_zeros(size: int) -> Floats:
     return room[shift : shift + size]
 
 
-class Briefing(NamedTuple):
-    """What an agent is told before it leaves, and nothing that it could only learn at sea.
-
-    agents : N; half_x, half_y : agents may go to +- these [m]
-    reach : how far its sensor sees the smallest target [m]
-    share_begin, share_end : its part of the swarm's summed top speeds, in the order of ids, from 0 to 1
-    """
-
-    agents: int
-    half_x: float
-    half_y: float
-    reach: float
-    share_begin: float
-    share_end: float
-
-
-class Truth(NamedTuple):
-    """The nearest target as it is, for strategies declared `informed`; all others get zeros.
-
-    present : is there any; x, y [m]; vx, vy [m/s]; goal_x, goal_y : where it is heading to [m]
-    """
-
-    present: bool
-    x: float
-    y: float
-    vx: float
-    vy: float
-    goal_x: float
-    goal_y: float
-
-
-class Own(NamedTuple):
-    """What an agent knows of itself. `time` [s] since the start of the run, `fleet`: index of its fleet."""
-
-    id: int
-    x: float
-    y: float
-    vx: float
-    vy: float
-    on_target: bool
-    max_speed: float
-    time_step: float
-    time: float
-    fleet: int
-    briefing: Briefing
-    truth: Truth
-
-
-class Report(NamedTuple):
-    """What an agent tells its neighbors: the one message of the swarm. `told`: the memory fields its strategy tells."""
-
-    id: int
-    x: float
-    y: float
-    vx: float
-    vy: float
-    on_target: bool
-    told: Any
-
-
-REPORT_BYTES = 4 + 4 * 8 + 1  # id, position and velocity, on target; each field of `told` adds 8
-
-
-class Heard(NamedTuple):
-    """What an agent made of its neighbors' reports: one leader and one sum.
-
-    `found` is whether any neighbor may lead; x, y, vx, vy, on_target, told are the leader's (the agent's own if none).
-    `sum_x`, `sum_y` are the sums of the strategy's influence over all neighbors; `neighbors` is how many were heard.
-    """
-
-    found: bool
-    x: float
-    y: float
-    vx: float
-    vy: float
-    on_target: bool
-    sum_x: float
-    sum_y: float
-    neighbors: int
-    told: Any
-
-
-class Swarm(NamedTuple):
-    """State and make of N agents, in arrays of L >= N lanes; lanes from N on are padding and never seen.
+class Bodies(NamedTuple):
+    """State of N agents, all that changes of them, in arrays of L >= N lanes; lanes from N on are padding, never seen.
 
     x, y, vx, vy : position and velocity; command_x, command_y : the speed-limited velocity before the wall
+    on_target : what it believes and reports; engaged : whether it detects a target that is there, no false alarm
     alive : 1.0, or 0.0 of an agent that is lost or not yet there; joins, leaves : it is there in steps [joins, leaves)
-    detection, false_alarm : chance per step to notice a target within reach, and to report one that is not there
-    max_acceleration [m/s^2], max_turn_rate [rad/s] : inf for none
     neighbors : k of each agent; contact : share of recent steps with a leader, by which k may adapt
     memory, told : (L, fields) what agents remember, and what of it they tell; the strategy sees them as `Minds`
-    fleet : index of the agent's fleet; fleet_end : (F,) one past the last agent of each fleet
     """
 
     x: Floats
@@ -120,22 +37,48 @@ class Swarm(NamedTuple):
     command_x: Floats
     command_y: Floats
     on_target: npt.NDArray[np.bool_]
+    engaged: npt.NDArray[np.bool_]
     alive: Floats
+    joins: npt.NDArray[np.int64]
+    leaves: npt.NDArray[np.int64]
+    neighbors: npt.NDArray[np.int64]
+    contact: Floats
+    memory: Floats
+    told: Floats
+
+
+class Makes(NamedTuple):
+    """What is chosen of N agents and does not change, in arrays of L lanes.
+
+    max_speed [m/s], sensor_radius [m]
+    detection, false_alarm : chance per step to notice a target within reach, and to report one that is not there
+    max_acceleration [m/s^2], max_turn_rate [rad/s] : inf for none
+    share_end : its part of the swarm's summed top speeds ends here, see `Briefing`
+    fleet : index of the agent's fleet; fleet_end : (F,) one past the last agent of each fleet
+    """
+
     max_speed: Floats
     sensor_radius: Floats
     detection: Floats
     false_alarm: Floats
     max_acceleration: Floats
     max_turn_rate: Floats
-    joins: npt.NDArray[np.int64]
-    leaves: npt.NDArray[np.int64]
-    neighbors: npt.NDArray[np.int64]
-    contact: Floats
     share_end: Floats
     fleet: npt.NDArray[np.int64]
     fleet_end: npt.NDArray[np.int64]
-    memory: Floats
-    told: Floats
+
+
+def both(name: str, state: Any, chosen: Any, module: str) -> Any:
+    """A class of NamedTuples with the fields of two, as kernels take them: what changes, and what is chosen."""
+    return namedtuple(name, state._fields + chosen._fields, module=module)
+
+
+Swarm = both("Swarm", Bodies, Makes, __name__)
+
+
+def part_of(whole: Any, kind: Any) -> Any:
+    """The part of a value that a class of NamedTuples names, such as part_of(swarm, Bodies); arrays are shared."""
+    return kind(*(getattr(whole, name) for name in kind._fields))
 
 
 class Minds(NamedTuple):
@@ -163,7 +106,7 @@ def width(fields: tuple[str, ...]) -> int:
     return len(fields) or 1
 
 
-def new_swarm(counts: list[int], fields: tuple[str, ...], told: tuple[str, ...] = ()) -> Swarm:
+def new_swarm(counts: list[int], fields: tuple[str, ...], told: tuple[str, ...] = ()) -> Any:
     """Return a swarm at rest at the origin; padding lanes lie far away, each at a place of its own.
 
     fields : of the memory; the first of them are `told`
@@ -188,6 +131,7 @@ def new_swarm(counts: list[int], fields: tuple[str, ...], told: tuple[str, ...] 
         command_x=aligned_zeros(lanes),
         command_y=aligned_zeros(lanes),
         on_target=np.zeros(lanes, np.bool_),
+        engaged=np.zeros(lanes, np.bool_),
         alive=alive,
         max_speed=np.ones(lanes),
         sensor_radius=aligned_zeros(lanes),

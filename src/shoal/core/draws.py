@@ -7,14 +7,23 @@ OOPSLA 2014), applied once per level: run, step, agent, purpose.
 
 import math
 
-import numpy as np
+from shoal.compiler.kernel import compiles, kernel
 
-from shoal.core.kernel import kernel
+_ALL = 0xFFFFFFFFFFFFFFFF  # 64 bits: what machine words keep by themselves, and Python's integers do not
 
-_GOLDEN = np.uint64(0x9E3779B97F4A7C15)
-_FIRST = np.uint64(0xBF58476D1CE4E5B9)
-_SECOND = np.uint64(0x94D049BB133111EB)
-_ONE = np.uint64(1)
+if compiles():
+    from numpy import uint64 as word
+else:
+
+    def word(number):  # type: ignore[no-redef]
+        """An integer as 64 bits without sign."""
+        return int(number) & _ALL
+
+
+_GOLDEN = word(0x9E3779B97F4A7C15)
+_FIRST = word(0xBF58476D1CE4E5B9)
+_SECOND = word(0x94D049BB133111EB)
+_ONE, _11, _27, _30, _31 = word(1), word(11), word(27), word(30), word(31)
 _TO_UNIT = 2.0**-53
 
 TARGET_STREAM = 1 << 32  # targets draw as "agents" from here on, so that no fleet size can collide with them
@@ -22,23 +31,23 @@ START_STEP = (1 << 62) - 1  # draws made before the first step
 
 
 @kernel
-def mix(word):
+def mix(bits):
     """Scramble 64 bits."""
-    word = (word ^ (word >> np.uint64(30))) * _FIRST
-    word = (word ^ (word >> np.uint64(27))) * _SECOND
-    return word ^ (word >> np.uint64(31))
+    bits = (bits ^ (bits >> _30)) * _FIRST & _ALL
+    bits = (bits ^ (bits >> _27)) * _SECOND & _ALL
+    return bits ^ (bits >> _31)
 
 
 @kernel
 def split(key, number):
     """Key number `number` below `key`: of a run below a seed, of a step below a run, of an agent below a step."""
-    return mix(key + (np.uint64(number) + _ONE) * _GOLDEN)
+    return mix(word(key) + (word(number) + _ONE) * _GOLDEN & _ALL)
 
 
 @kernel
 def uniform(key, purpose):
     """Draw from U[0, 1) for a purpose (a small int); the same key and purpose give the same number."""
-    return np.float64(split(key, purpose) >> np.uint64(11)) * _TO_UNIT
+    return float(split(key, purpose) >> _11) * _TO_UNIT
 
 
 @kernel

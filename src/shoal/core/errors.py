@@ -41,6 +41,10 @@ class RecordError(ShoalError):
     """A record that cannot be written or read."""
 
 
+class MessageError(ShoalError):
+    """A report that cannot be sent, or read."""
+
+
 class MissingExtraError(ShoalError):
     """An optional library is needed and absent."""
 

@@ -1,6 +1,6 @@
 """A frame: the state at the start of a step, copied."""
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 
 
 @kernel

@@ -1,65 +1,102 @@
 """What each agent hears: its leader and the sum of its neighbors' influence."""
 
+from typing import Any, NamedTuple
+
 import numpy as np
 
-from shoal.core.agents import Briefing, Own, Report, Truth
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
+from shoal.core.messages import Briefing, Own, Report, Truth
 from shoal.strategies import contract
+from shoal.world.neighbors import linked
+
+
+class Arrived(NamedTuple):
+    """The reports that arrive in a step, (L,) each: what is said, what is told of memories, and when [s]."""
+
+    said: Any
+    told: Any
+    at: float
+
+
+class Listeners(NamedTuple):
+    """The agents that decide together, from `first` on, (B,) each; and the time [s]."""
+
+    first: int
+    x: Any
+    y: Any
+    vx: Any
+    vy: Any
+    on_target: Any
+    max_speed: Any
+    fleet: Any
+    time_step: float
+    time: float
 
 
 @kernel
-def choose_leaders(said, told, block, links, params, first, agents, clock, leader, rank):
-    """Set leader[i] to the index of the neighbor that listener i follows, -1 if none.
+def choose_leaders(arrived, listeners, links, params, agents, leader, lowest):
+    """Set leader[i] to the index of the neighbor that listener i follows, -1 if none; lowest[i] is its priority.
 
     Speakers that may not lead are skipped before the inner loop: few agents are on target at a time.
     """
-    lanes = block[0].size
-    square, reach = links.square, links.reach
+    lanes, said, told, at = listeners.x.size, arrived.said, arrived.told, arrived.at
     for i in range(lanes):
         leader[i] = -1
-        rank[i] = np.inf
+        lowest[i] = np.inf
     for j in range(agents):
-        other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j])
+        other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, None)
         if contract.leads(other, params):
             for i in range(lanes):
-                me = _listener(block, first, i, clock)
+                me = _listener(listeners, i)
+                rank = contract.rank_of(links.rank, j, i, params)
+                other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
                 priority = contract.priority(me, other, params)
-                better = square[j, i] <= reach[i] and priority < rank[i]
-                rank[i] = priority if better else rank[i]
+                better = linked(links, j, i) and priority < lowest[i]
+                lowest[i] = priority if better else lowest[i]
                 leader[i] = j if better else leader[i]
 
 
 @kernel
-def sum_influence(said, told, block, links, params, first, agents, clock, sum_x, sum_y):
-    """Add up what the neighbors of each listener exert on it, and count them in links.heard."""
-    lanes = block[0].size
-    square, reach, heard = links.square, links.reach, links.heard
+def sum_influence(arrived, listeners, links, params, agents, sums):
+    """Add up what the neighbors of each listener exert on it, and count them in links.heard.
+
+    sums : (S, L), one row per sum of the strategy and one lane per listener
+    """
+    lanes, heard, said, told, at = listeners.x.size, links.heard, arrived.said, arrived.told, arrived.at
     for i in range(lanes):
-        sum_x[i] = 0.0
-        sum_y[i] = 0.0
+        contract.clear(sums, i, params)
         heard[i] = 0
     for j in range(agents):
         if contract.has_influence(params):
-            other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j])
             for i in range(lanes):
-                me = _listener(block, first, i, clock)
-                push_x, push_y = contract.influence(me, other, params)
-                linked = square[j, i] <= reach[i]
-                sum_x[i] += push_x if linked else 0.0
-                sum_y[i] += push_y if linked else 0.0
-                heard[i] += 1 if linked else 0
+                me = _listener(listeners, i)
+                rank = contract.rank_of(links.rank, j, i, params)
+                other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
+                pushed = contract.influence(me, other, params)
+                heard_now = linked(links, j, i)
+                contract.add(sums, i, pushed, heard_now)
+                heard[i] += 1 if heard_now else 0
         else:
             for i in range(lanes):
-                heard[i] += 1 if square[j, i] <= reach[i] else 0
+                heard[i] += 1 if linked(links, j, i) else 0
 
 
 @kernel
-def _listener(block, first, i, clock):
+def _listener(listeners, i):
     """Lane i of a block, as far as pairs need it: listeners in the inner loops have no briefing and no truth."""
-    x, y, vx, vy, on_target, max_speed, fleet = block
-    time_step, time = clock
     briefing = Briefing(0, 0.0, 0.0, 0.0, 0.0, 0.0)
     truth = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     return Own(
-        first + i, x[i], y[i], vx[i], vy[i], on_target[i], max_speed[i], time_step, time, fleet[i], briefing, truth
+        listeners.first + i,
+        listeners.x[i],
+        listeners.y[i],
+        listeners.vx[i],
+        listeners.vy[i],
+        listeners.on_target[i],
+        listeners.max_speed[i],
+        listeners.time_step,
+        listeners.time,
+        listeners.fleet[i],
+        briefing,
+        truth,
     )

@@ -1,6 +1,6 @@
 """When each metric is counted within a step."""
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 from shoal.metrics.closest import tally_closest
 from shoal.metrics.contacts import tally_contacts
 from shoal.metrics.coverage import tally_coverage
@@ -12,8 +12,12 @@ from shoal.metrics.velocity_fluctuation import tally_velocity_fluctuation
 
 
 @kernel
-def measure_before_move(tally, batch, world, swarm, targets, engaged, active, number, scratch):
-    """What is true at the start of a step: who is on target, how velocities differ, who watches where, who is close."""
+def measure_before_move(tally, batch, world, swarm, targets, counts, number, scratch):
+    """What is true at the start of a step: who is on target, how velocities differ, who watches where, who is close.
+
+    counts : how many agents are on a target, and how many are there
+    """
+    engaged, active = counts
     tally_time_on_target(tally, batch, targets, engaged)
     tally_contacts(tally, batch, targets)
     tally_velocity_fluctuation(tally, batch, swarm, world.agents, active, scratch.a)

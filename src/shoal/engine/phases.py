@@ -1,72 +1,58 @@
-"""The parts of a step that know no strategy, each compiled once for all of them (see core/phase.py).
+"""The parts of a step that know no strategy, each compiled once for all of them (see compiler/phase.py).
 
-Every phase takes where the stage is, two integers and a key, and returns an integer.
+Every phase takes the address of the stage, the number of the step, the first agent of the block that decides together,
+the batch of the sums, and the key of the step's chance; it returns an integer.
 """
 
-from typing import Any, NamedTuple
+from typing import Any
 
+import numpy as np
+
+from shoal.compiler.phase import phase
+from shoal.compiler.placed import part
 from shoal.core.draws import TARGET_STREAM, split
-from shoal.core.phase import part, phase
 from shoal.engine.frames import keep_frame
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
-from shoal.engine.stage import FRAMES, RADIO, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD
+from shoal.engine.stage import FRAMES, RADIO, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD, Addresses
 from shoal.world.motion import limit_maneuver, limit_speed, move
-from shoal.world.neighbors import link_nearest, measure_distances, settle_ties
+from shoal.world.neighbors import link_nearest, measure_distances, rank_heard, settle_ties
 from shoal.world.presence import update_presence
 from shoal.world.radio import adapt_degree, limit_links, lose_reports, said, send
 from shoal.world.sensing import sense
 from shoal.world.targets import advance_target
 
 
-class Addresses(NamedTuple):
-    """Where the machine code of each phase is."""
-
-    look: Any
-    perceive: Any
-    link: Any
-    settle: Any
-    go: Any
-    conclude: Any
-
-
 @phase
-def look(here, number, frame, step_key):
-    """Keep the state at the start of a step as a frame."""
-    world = part(here, WORLD)
-    swarm = part(here, SWARM)
-    targets = part(here, TARGETS)
-    frames = part(here, FRAMES)
-    if world.mortal:
-        update_presence(swarm, world, number)
-    sense(swarm, targets, world, step_key)
-    keep_frame(frames, frame, number, world, swarm, targets)
-    return 0
-
-
-@phase
-def perceive(here, number, batch, step_key):
+def sense_all(stage, number, first, batch, key):
     """Who is there, who is on target, and what is said."""
-    world = part(here, WORLD)
-    swarm = part(here, SWARM)
-    radio = part(here, RADIO)
-    targets = part(here, TARGETS)
-    tally = part(here, TALLY)
-    scratch = part(here, SCRATCH)
+    world = part(stage, WORLD)
+    swarm = part(stage, SWARM)
+    radio = part(stage, RADIO)
+    targets = part(stage, TARGETS)
+    tally = part(stage, TALLY)
+    scratch = part(stage, SCRATCH)
     active = update_presence(swarm, world, number) if world.mortal else world.agents
-    engaged = sense(swarm, targets, world, step_key)
-    measure_before_move(tally, batch, world, swarm, targets, engaged, active, number, scratch)
+    engaged = sense(swarm, targets, world, key)
+    measure_before_move(tally, batch, world, swarm, targets, (engaged, active), number, scratch)
     if radio.delay > 0:
         send(radio, swarm, number)
     return 0
 
 
 @phase
-def link(here, number, first, step_key):
+def record_frame(stage, number, frame, batch, key):
+    """Keep the state at the start of a step as a frame."""
+    keep_frame(part(stage, FRAMES), frame, number, part(stage, WORLD), part(stage, SWARM), part(stage, TARGETS))
+    return 0
+
+
+@phase
+def link(stage, number, first, batch, key):
     """Find out whom the agents from `first` on hear."""
-    world = part(here, WORLD)
-    swarm = part(here, SWARM)
-    radio = part(here, RADIO)
-    scratch = part(here, SCRATCH)
+    world = part(stage, WORLD)
+    swarm = part(stage, SWARM)
+    radio = part(stage, RADIO)
+    scratch = part(stage, SCRATCH)
     links = scratch.links
     last = first + links.reach.size
     reports = said(radio, swarm, number)
@@ -76,37 +62,38 @@ def link(here, number, first, step_key):
         link_nearest(links, links.wanted, world.agents)
     else:
         link_nearest(links, swarm.neighbors[first:last], world.agents)
+    rank_heard(links, world.agents)
     return 0
 
 
 @phase
-def settle(here, number, first, step_key):
+def settle(stage, number, first, batch, key):
     """Settle ties and lose reports; returns 1 if links changed after their influence was summed."""
-    world = part(here, WORLD)
-    swarm = part(here, SWARM)
-    radio = part(here, RADIO)
-    scratch = part(here, SCRATCH)
+    world = part(stage, WORLD)
+    swarm = part(stage, SWARM)
+    radio = part(stage, RADIO)
+    scratch = part(stage, SCRATCH)
     links = scratch.links
     if radio.limited:
         changed = settle_ties(links, links.wanted, world.agents)
     else:
         changed = settle_ties(links, swarm.neighbors[first : first + links.reach.size], world.agents)
     if radio.loss > 0.0:
-        lose_reports(links, radio, step_key, first, world.agents)
+        lose_reports(links, radio, key, first, world.agents)
         changed = True
+    if changed:
+        rank_heard(links, world.agents)
     return 1 if changed else 0
 
 
 @phase
-def go(here, number, batch_first, step_key):
+def move_agents(stage, number, first, batch, key):
     """Move the agents from `first` on as their commands say, within their limits."""
-    world = part(here, WORLD)
-    swarm = part(here, SWARM)
-    radio = part(here, RADIO)
-    tally = part(here, TALLY)
-    scratch = part(here, SCRATCH)
-    first = batch_first & 0xFFFFFFFF
-    batch = batch_first >> 32
+    world = part(stage, WORLD)
+    swarm = part(stage, SWARM)
+    radio = part(stage, RADIO)
+    tally = part(stage, TALLY)
+    scratch = part(stage, SCRATCH)
     last = first + scratch.leader.size
     there = min(last, world.agents)
     command_x, command_y = swarm.command_x[first:last], swarm.command_y[first:last]
@@ -122,18 +109,49 @@ def go(here, number, batch_first, step_key):
 
 
 @phase
-def conclude(here, number, batch, step_key):
-    """Measure where agents head; targets move."""
-    world = part(here, WORLD)
-    swarm = part(here, SWARM)
-    targets = part(here, TARGETS)
-    tracks = part(here, TRACKS)
-    tally = part(here, TALLY)
-    scratch = part(here, SCRATCH)
-    measure_after_move(tally, batch, world, swarm, targets, scratch)
-    for j in range(targets.size):
-        advance_target(targets[j], tracks, swarm, world, number + 1, split(step_key, TARGET_STREAM + j))
+def measure(stage, number, first, batch, key):
+    """Measure where agents head, while the targets are still where they were."""
+    tally, world, swarm = part(stage, TALLY), part(stage, WORLD), part(stage, SWARM)
+    measure_after_move(tally, batch, world, swarm, part(stage, TARGETS), part(stage, SCRATCH))
     return 0
 
 
-PHASES = Addresses(look, perceive, link, settle, go, conclude)
+@phase
+def move_targets(stage, number, first, batch, key):
+    """Targets move by their rules, or as they were recorded."""
+    world = part(stage, WORLD)
+    swarm = part(stage, SWARM)
+    targets = part(stage, TARGETS)
+    tracks = part(stage, TRACKS)
+    for j in range(targets.size):
+        advance_target(targets[j], tracks, swarm, world, number + 1, split(key, TARGET_STREAM + j))
+    return 0
+
+
+@phase
+def come_to_rest(stage, number, first, batch, key):
+    """Make the state true between two calls: who is there and on target as step `number` will begin.
+
+    Returns 1 if a number is not finite.
+    """
+    world = part(stage, WORLD)
+    swarm = part(stage, SWARM)
+    if world.mortal:
+        update_presence(swarm, world, number)
+    sense(swarm, part(stage, TARGETS), world, key)
+    finite = True
+    for i in range(world.agents):
+        finite &= np.isfinite(swarm.x[i]) & np.isfinite(swarm.y[i])
+        finite &= np.isfinite(swarm.vx[i]) & np.isfinite(swarm.vy[i])
+    for each in part(stage, TALLY).fluctuation.flat:
+        finite &= np.isfinite(each)
+    return 0 if finite else 1
+
+
+_IN_ORDER = (sense_all, record_frame, link, settle, move_agents, measure, move_targets, come_to_rest)
+
+
+def addresses() -> Addresses:
+    """Compile the phases, or load them from the cache."""
+    where: list[Any] = [each.address() for each in _IN_ORDER]
+    return Addresses(*where)

@@ -1,11 +1,15 @@
-"""Many steps of one run in one compiled call; the functions that Python calls."""
+"""Many steps of one run in one compiled call; the functions that Python calls.
 
+`stage` is the address of a stage (compiler/placed.py), which the caller keeps in place until the call is back.
+"""
+
+from shoal.compiler.kernel import entry_kernel
+from shoal.compiler.phase import enter
+from shoal.compiler.placed import part
 from shoal.core.draws import START_STEP, TARGET_STREAM, split
-from shoal.core.kernel import entry_kernel
-from shoal.core.phase import enter, part
 from shoal.engine.self import own
-from shoal.engine.stage import FRAMES, RADIO, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD
-from shoal.engine.step import step, tell
+from shoal.engine.stage import FRAMES, PHASES, RADIO, RUN, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD
+from shoal.engine.step import Now, Parts, step, tell
 from shoal.strategies import contract
 from shoal.world.placement import place
 from shoal.world.presence import draw_lifetimes, draw_losses, update_presence
@@ -14,18 +18,19 @@ from shoal.world.targets import begin_target
 
 
 @entry_kernel
-def set_out(here, places, lifetimes, losses, seed, run):
-    """Place agents and targets, and draw who will be lost when. `here` is where the stage is.
+def set_out(stage, places, lifetimes, losses):
+    """Place agents and targets, and draw who will be lost when.
 
     places, lifetimes : (F,) index into PLACES and mean lifetime [s] of each fleet, 0 for ever
     losses : (C, 3) step, fleet (-1: any) and number of agents of each loss
     """
-    world = part(here, WORLD)
-    swarm = part(here, SWARM)
-    radio = part(here, RADIO)
-    targets = part(here, TARGETS)
-    tracks = part(here, TRACKS)
-    run_key = split(split(seed, 0), run)
+    world = part(stage, WORLD)
+    swarm = part(stage, SWARM)
+    radio = part(stage, RADIO)
+    targets = part(stage, TARGETS)
+    tracks = part(stage, TRACKS)
+    run = part(stage, RUN)
+    run_key = split(split(run.seed, 0), run.run)
     start_key = split(run_key, START_STEP)
     place(swarm, world, places, run_key)
     draw_lifetimes(swarm, world, lifetimes, run_key)
@@ -39,12 +44,13 @@ def set_out(here, places, lifetimes, losses, seed, run):
 
 
 @entry_kernel
-def begin_run(here, minds, params, seed, run):
+def begin_run(stage, minds, params):
     """Set up every agent's memory."""
-    world = part(here, WORLD)
-    swarm = part(here, SWARM)
-    targets = part(here, TARGETS)
-    start_key = split(split(split(seed, 0), run), START_STEP)
+    world = part(stage, WORLD)
+    swarm = part(stage, SWARM)
+    targets = part(stage, TARGETS)
+    run = part(stage, RUN)
+    start_key = split(split(split(run.seed, 0), run.run), START_STEP)
     for i in range(world.agents):
         me = own(world, swarm, targets, params, 0, i)
         contract.begin(me, minds.memory[i], params, split(start_key, i))
@@ -52,27 +58,30 @@ def begin_run(here, minds, params, seed, run):
 
 
 @entry_kernel
-def rollout(here, minds, params, phases, seed, run, first, last, steps, every, tail):
-    """Run time-steps first..last of `steps`, in place.
+def rollout(stage, minds, params, first, last, every, tail):
+    """Run time-steps first..last, in place; returns 1 if a number is not finite at the end.
 
     Frames are kept of every `every`-th step and of all from step `tail` on. Splitting a run into several calls changes
-    no bit: what must survive a call is in the stage.
+    no bit: what must survive a call is in the stage, and true when a call is back.
     """
-    run_key = split(split(seed, 0), run)
-    world = part(here, WORLD)
-    swarm = part(here, SWARM)
-    radio = part(here, RADIO)
-    targets = part(here, TARGETS)
-    tally = part(here, TALLY)
-    scratch = part(here, SCRATCH)
-    frames = part(here, FRAMES)
-    batches = tally.steps.size
-    room = frames.step.size
+    phases = part(stage, PHASES)
+    run = part(stage, RUN)
+    parts = Parts(
+        stage,
+        phases,
+        part(stage, WORLD),
+        part(stage, SWARM),
+        part(stage, RADIO),
+        part(stage, TARGETS),
+        part(stage, SCRATCH),
+    )
+    batches = part(stage, TALLY).steps.size
+    room = part(stage, FRAMES).step.size
+    run_key = split(split(run.seed, 0), run.run)
     frame = 0
     for number in range(first, last):
-        step_key = split(run_key, number)
-        if room > 0 and (number % every == 0 or number >= tail):
-            enter(phases.look, here, number, frame, step_key)
-            frame += 1
-        batch = min(number * batches // steps, batches - 1)
-        step(here, world, swarm, radio, targets, scratch, minds, params, phases, batch, step_key, number)
+        batch = min(number * batches // run.steps, batches - 1)
+        keeps = room > 0 and (number % every == 0 or number >= tail)
+        step(parts, minds, params, Now(number, batch, split(run_key, number), frame if keeps else -1))
+        frame += keeps
+    return enter(phases.come_to_rest, stage, last, 0, 0, split(run_key, last))

@@ -1,7 +1,7 @@
 """What agent i knows of itself, as its strategy sees it."""
 
-from shoal.core.agents import Briefing, Own, Truth
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
+from shoal.core.messages import Briefing, Own, Truth
 from shoal.strategies import contract
 from shoal.world.targets import heading_to
 

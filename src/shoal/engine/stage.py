@@ -5,19 +5,24 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from shoal.core.agents import Floats, Swarm, aligned_zeros
-from shoal.metrics.tally import Tally
+from shoal.compiler.placed import all_like
+from shoal.core.agents import Floats, Swarm, aligned_zeros, new_swarm
+from shoal.metrics.tally import Tally, new_tally
 from shoal.world.arena import World
 from shoal.world.neighbors import Links, new_links
-from shoal.world.radio import Radio
-from shoal.world.targets import Tracks
+from shoal.world.radio import Radio, new_radio
+from shoal.world.targets import TARGET, Tracks
 
 
 class Scratch(NamedTuple):
-    """Working arrays; nothing in them outlives a step but the guess in links.reach."""
+    """Working arrays; nothing in them outlives a step but the guess in links.reach.
+
+    leader : (B,) index of whom each of the B agents that decide together follows; sums : (S, B) of their influences
+    """
 
     links: Links
     leader: npt.NDArray[np.int64]
+    sums: Floats
     a: Floats
     b: Floats
     c: Floats
@@ -43,11 +48,32 @@ class Frames(NamedTuple):
     target_present: npt.NDArray[np.bool_]
 
 
-WORLD, SWARM, RADIO, TARGETS, TRACKS, TALLY, SCRATCH, FRAMES = range(8)  # the fields of a stage, for kernels
+class Addresses(NamedTuple):
+    """Where the machine code of each phase is, in the order of a step."""
+
+    sense: Any
+    record_frame: Any
+    link: Any
+    settle_ties: Any
+    move: Any
+    measure: Any
+    move_targets: Any
+    come_to_rest: Any
+
+
+class Run(NamedTuple):
+    """Which run it is: what all its chance comes from, and how many steps it is planned to have, for its batches."""
+
+    seed: np.uint64
+    run: int
+    steps: int
+
+
+WORLD, SWARM, RADIO, TARGETS, TRACKS, TALLY, SCRATCH, FRAMES, PHASES, RUN = range(10)  # fields of a stage, for kernels
 
 
 class Stage(NamedTuple):
-    """World, agents, radio, targets, sums, working arrays and frames of one run."""
+    """World, agents, radio, targets, sums, working arrays, frames, phases and chance of one run."""
 
     world: World
     swarm: Swarm
@@ -57,15 +83,56 @@ class Stage(NamedTuple):
     tally: Tally
     scratch: Scratch
     frames: Frames
+    phases: Addresses
+    run: Run
 
 
-def new_scratch(world: World, lanes: int) -> Scratch:
-    """Return scratch for blocks of agents that decide together: all of them, or one in the sequential order."""
+def new_scratch(world: World, lanes: int, sums: int = 2, ranked: bool = False) -> Scratch:
+    """Return scratch for blocks of agents that decide together: all of them, or one in the sequential order.
+
+    sums : how many the strategy has; ranked : whether it asks for the ranks of neighbors
+    """
     width = 1 if world.sequential else lanes
     return Scratch(
-        links=new_links(world.agents, width),
+        links=new_links(world.agents, width, ranked),
         leader=np.zeros(width, np.int64),
+        sums=aligned_zeros(sums * width).reshape((sums, width)),
         a=aligned_zeros(lanes),
         b=aligned_zeros(lanes),
         c=aligned_zeros(lanes),
+    )
+
+
+def new_frames(count: int, agents: int, targets: int, fields: int) -> Frames:
+    """Return room for so many frames."""
+    return Frames(
+        step=np.empty(count, np.int64),
+        x=np.empty((count, agents)),
+        y=np.empty((count, agents)),
+        vx=np.empty((count, agents)),
+        vy=np.empty((count, agents)),
+        on_target=np.empty((count, agents), np.bool_),
+        alive=np.empty((count, agents), np.bool_),
+        memory=np.empty((count, agents, fields)),
+        target_x=np.empty((count, targets)),
+        target_y=np.empty((count, targets)),
+        target_present=np.empty((count, targets), np.bool_),
+    )
+
+
+@all_like
+def model_stage() -> Stage:
+    """The smallest stage there is, of the type that all stages have."""
+    world = World(*(kind() for kind in World.__annotations__.values()))._replace(agents=2)
+    return Stage(
+        world,
+        new_swarm([2], ()),
+        new_radio(1, (), limited=False, reach=1.0, delay=0, loss=0.0, degree=None),
+        np.zeros(1, TARGET).view(np.recarray),
+        Tracks(np.zeros(1), np.zeros(1), np.zeros(1)),
+        new_tally(1, 1, 1, 2, 1),
+        new_scratch(world, 2),
+        new_frames(0, 2, 1, 1),
+        Addresses(*(0 for _ in Addresses._fields)),
+        Run(np.uint64(0), 0, 1),
     )

@@ -1,36 +1,75 @@
-"""One time-step: sense, listen, decide, move, measure. Algorithm 2 of the paper."""
+"""One time-step: sense, link, listen, decide, move, measure. Algorithm 2 of the paper; shoal/reference.py is to read.
 
-from shoal.core.agents import Heard
+What knows no strategy is a phase, called through its address (engine/phases.py); listen and decide are compiled for
+each strategy.
+"""
+
+from typing import Any, NamedTuple
+
+from shoal.compiler.kernel import kernel
+from shoal.compiler.phase import enter
 from shoal.core.draws import split
-from shoal.core.kernel import kernel
-from shoal.core.phase import enter
-from shoal.engine.listen import choose_leaders, sum_influence
+from shoal.core.messages import Heard
+from shoal.engine.listen import Arrived, Listeners, choose_leaders, sum_influence
 from shoal.engine.self import own
+from shoal.engine.stage import Addresses, Scratch
 from shoal.strategies import contract
 from shoal.world.radio import said
 
 
+class Parts(NamedTuple):
+    """What a step needs of the stage, and the stage's address, for phases."""
+
+    stage: Any
+    phases: Addresses
+    world: Any
+    swarm: Any
+    radio: Any
+    targets: Any
+    scratch: Scratch
+
+
+class Now(NamedTuple):
+    """A step: its number, the batch that its sums go into, the key of its chance, the frame to keep it in, -1: none."""
+
+    number: int
+    batch: int
+    key: Any
+    frame: int
+
+
 @kernel
-def step(here, world, swarm, radio, targets, scratch, minds, params, phases, batch, step_key, number):
-    """Advance the world by time-step `number`; `here` is where the stage is."""
-    enter(phases.perceive, here, number, batch, step_key)
-    reports = said(radio, swarm, number)
-    told = minds.told if radio.delay == 0 else minds.arrived[(number + 1) % (radio.delay + 1)]
-    together = scratch.leader.size
+def step(parts, minds, params, now):
+    """Advance the world by a time-step."""
+    phases, world, radio = parts.phases, parts.world, parts.radio
+    run(phases.sense, parts, now, 0)
+    if now.frame >= 0:
+        run(phases.record_frame, parts, now, now.frame)
+    told = minds.told if radio.delay == 0 else minds.arrived[(now.number + 1) % (radio.delay + 1)]
+    arrived = Arrived(said(radio, parts.swarm, now.number), told, (now.number - radio.delay) * world.time_step)
+    together = parts.scratch.leader.size
     for first in range(0, world.agents, together):
-        enter(phases.link, here, number, first, step_key)
-        listen(here, world, swarm, scratch, reports, told, params, phases, step_key, number, first)
-        decide(world, swarm, targets, scratch, reports, told, minds, params, step_key, number, first)
-        enter(phases.go, here, number, (batch << 32) | first, step_key)  # a phase takes two numbers, and go needs three
-    enter(phases.conclude, here, number, batch, step_key)
+        run(phases.link, parts, now, first)
+        listen(parts, arrived, params, now, first)
+        decide(parts.swarm, parts, arrived, minds, params, now, first)
+        run(phases.move, parts, now, first)
+    run(phases.measure, parts, now, 0)
+    run(phases.move_targets, parts, now, 0)
 
 
 @kernel
-def listen(here, world, swarm, scratch, reports, told, params, phases, step_key, number, first):
+def run(phase, parts, now, first):
+    """Run a phase of this step."""
+    return enter(phase, parts.stage, now.number, first, now.batch, now.key)
+
+
+@kernel
+def listen(parts, arrived, params, now, first):
     """Agents from `first` on sum up their neighbors' influence and choose whom to follow."""
-    links, leader = scratch.links, scratch.leader
-    last = first + leader.size
-    block = (
+    world, swarm, scratch = parts.world, parts.swarm, parts.scratch
+    last = first + scratch.leader.size
+    listeners = Listeners(
+        first,
         swarm.x[first:last],
         swarm.y[first:last],
         swarm.vx[first:last],
@@ -38,29 +77,33 @@ def listen(here, world, swarm, scratch, reports, told, params, phases, step_key,
         swarm.on_target[first:last],
         swarm.max_speed[first:last],
         swarm.fleet[first:last],
+        world.time_step,
+        now.number * world.time_step,
     )
-    clock = (world.time_step, number * world.time_step)
     for turn in range(2):  # the second where ties or losses changed who is heard; written once, compiled once
-        sum_influence(reports, told, block, links, params, first, world.agents, clock, scratch.b, scratch.c)
-        if turn == 1 or enter(phases.settle, here, number, first, step_key) == 0:
+        sum_influence(arrived, listeners, scratch.links, params, world.agents, scratch.sums)
+        if turn == 1 or run(parts.phases.settle_ties, parts, now, first) == 0:
             break
-    choose_leaders(reports, told, block, links, params, first, world.agents, clock, leader, scratch.a)
+    choose_leaders(arrived, listeners, scratch.links, params, world.agents, scratch.leader, scratch.a)
 
 
 @kernel
-def decide(world, swarm, targets, scratch, reports, told, minds, params, step_key, number, first):
-    """Every agent there, from `first` on, asks its strategy for the velocity it wants and updates what it tells."""
-    leader, sum_x, sum_y, count = scratch.leader, scratch.b, scratch.c, scratch.links.heard
-    last = min(first + leader.size, world.agents)
+def decide(swarm, parts, arrived, minds, params, now, first):
+    """Every agent there, from `first` on, asks its strategy for the velocity it wants and updates what it tells.
+
+    `swarm` is parts.swarm: what is written to must be near, see compiler/kernel.py.
+    """
+    world, scratch, reports = parts.world, parts.scratch, arrived.said
+    last = min(first + scratch.leader.size, world.agents)
     for i in range(first, last):
         if swarm.alive[i] == 0.0:
             swarm.command_x[i] = 0.0
             swarm.command_y[i] = 0.0
             continue
         lane = i - first
-        me = own(world, swarm, targets, params, number, i)
-        found = leader[lane] >= 0
-        j = leader[lane] if found else i
+        me = own(world, swarm, parts.targets, params, now.number, i)
+        found = scratch.leader[lane] >= 0
+        j = scratch.leader[lane] if found else i
         heard = Heard(
             found,
             reports.x[j] if found else me.x,
@@ -68,12 +111,13 @@ def decide(world, swarm, targets, scratch, reports, told, minds, params, step_ke
             reports.vx[j] if found else me.vx,
             reports.vy[j] if found else me.vy,
             reports.on_target[j] if found else me.on_target,
-            sum_x[lane],
-            sum_y[lane],
-            count[lane],
-            told[j],
+            0.0,
+            0.0,
+            scratch.links.heard[lane],
+            arrived.told[j],
+            scratch.sums[:, lane],
         )
-        vx, vy = contract.decide(me, heard, minds.memory[i], params, split(step_key, i))
+        vx, vy = contract.decide(me, heard, minds.memory[i], params, split(now.key, i))
         swarm.command_x[i] = vx
         swarm.command_y[i] = vy
     tell(swarm, first, last)

@@ -2,10 +2,10 @@
 
 from collections.abc import Callable, Iterable, Iterator
 
-from shoal.compiling import mark_compiled, needs_compiling
 from shoal.experiments.executors import Done, Executor, Task
+from shoal.run.compiling import mark_compiled, needs_compiling
+from shoal.run.simulation import Simulation
 from shoal.scenario.crew import crew_of
-from shoal.simulation import Simulation
 
 
 def compiled_first(execute: Executor, tell: Callable[[str], None]) -> Executor:

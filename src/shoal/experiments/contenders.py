@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from shoal.core.errors import ScenarioError, did_you_mean
-from shoal.scenario.plugins import find_strategy, load_strategies
 from shoal.strategies import CATALOGUE
+from shoal.strategies.plugins import find_strategy, load_strategies
 
 LATTICE = "lattice"  # what standing still gives: in every comparison
 

@@ -7,11 +7,11 @@ from typing import Any
 
 from shoal.core.errors import ShoalError
 from shoal.metrics.summary import METRICS, fleet_fluctuation, fleet_stationary, phi_histogram
-from shoal.runs import chunk_steps
-from shoal.scenario.facts import facts_of
+from shoal.run.facts import facts_of
+from shoal.run.simulate import chunk_steps
+from shoal.run.simulation import Simulation
 from shoal.scenario.load import scenario_from
 from shoal.scenario.schema import Scenario
-from shoal.simulation import Simulation
 
 Row = dict[str, Any]
 LIST_COLUMNS = ("phi_histogram", "fleet_phi_histogram", "fleet_xi_raw", "fleet_stationary")

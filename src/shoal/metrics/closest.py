@@ -1,6 +1,6 @@
 """How close agents come to each other: does repulsion keep them from colliding?"""
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 
 EVERY = 25  # steps between two looks: a hundredth of the time of a run
 

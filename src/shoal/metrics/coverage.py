@@ -2,7 +2,7 @@
 
 import math
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 
 WINDOW = 1000  # steps
 CELLS = 32  # along each side of the arena

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
+from shoal.world.neighbors import linked
 
 EVERY = 500  # steps between two looks at the graph
 
@@ -17,12 +18,11 @@ def tally_graph(tally, batch, world, links, alive, part, number):
     if number % EVERY != 0:
         return
     agents = world.agents
-    square, reach = links.square, links.reach
     for i in range(agents):
         part[i] = i
     for i in range(agents):
         for j in range(agents):
-            if square[j, i] <= reach[i] and alive[j] > 0.0:
+            if linked(links, j, i) and alive[j] > 0.0:
                 _join(part, i, j)
     components = 0
     active = 0
@@ -35,14 +35,14 @@ def tally_graph(tally, batch, world, links, alive, part, number):
     for i in range(agents):
         heard = 0
         for j in range(agents):
-            if square[j, i] <= reach[i] and alive[j] > 0.0:
+            if linked(links, j, i) and alive[j] > 0.0:
                 ears[heard] = j
                 heard += 1
         knit = 0
         for a in range(heard):
             for b in range(a):
                 one, other = ears[a], ears[b]
-                knit += square[one, other] <= reach[other] or square[other, one] <= reach[one]
+                knit += linked(links, one, other) or linked(links, other, one)
         total += 2.0 * knit / (heard * (heard - 1)) if heard > 1 else 0.0
     tally.graphs[batch] += 1.0
     tally.components[batch] += components

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 from shoal.metrics.tally import BINS
 
 STATIONARY = 0.1  # share of the top speed below which an agent counts as stationary

@@ -7,8 +7,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from shoal.core.agents import REPORT_BYTES, Floats
-from shoal.metrics.tally import Tally, batch_of
+from shoal.core.agents import Floats
+from shoal.core.messages import REPORT_BYTES
+from shoal.metrics.tally import NONE_SEEN, Tally, batch_of
 
 
 class Facts(NamedTuple):
@@ -85,8 +86,8 @@ def mean_max_speed(tally: Tally, facts: Facts) -> float:
 
 def _closest(tally: Tally) -> float:
     """The smallest distance [m], NaN if no two agents were ever there."""
-    square = float(tally.closest.min(initial=math.inf))
-    return math.sqrt(square) if math.isfinite(square) else float("nan")
+    square = float(tally.closest.min(initial=NONE_SEEN))
+    return math.sqrt(square) if square < NONE_SEEN else float("nan")
 
 
 def _fairness(tally: Tally) -> float:

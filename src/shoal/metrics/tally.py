@@ -12,6 +12,8 @@ BINS = 11  # of the heading-bearing histogram
 LENGTHS = 32  # bins of the lengths of losses
 WINDOWS = 50  # of the timeline, per batch
 
+NONE_SEEN = 1e300  # [m^2] what the smallest square of a distance begins at: finite, so that tallies can be subtracted
+
 
 class Tally(NamedTuple):
     """Sums over the steps of each batch b (B batches of consecutive steps, for batch means).
@@ -88,7 +90,7 @@ def new_tally(steps: int, batches: int, fleets: int, agents: int, targets: int) 
         timeline_on_target=np.zeros((batches, WINDOWS)),
         distance=np.zeros((batches, agents)),
         cubes=np.zeros((batches, agents)),
-        closest=np.full(1, np.inf),
+        closest=np.full(1, NONE_SEEN),
         seen=np.zeros((1, CELLS * CELLS), np.int64),
         **{name: np.zeros(batches) for name in _PLAIN},
     )

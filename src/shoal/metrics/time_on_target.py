@@ -1,6 +1,6 @@
 """Time on target: share of the steps with at least one agent on target; and of every target, and over time."""
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 
 
 @kernel

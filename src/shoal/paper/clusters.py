@@ -7,10 +7,10 @@ import numpy as np
 from shoal.experiments.design import Point
 from shoal.paper.curves import Floats
 from shoal.record.trajectory import Trajectory
+from shoal.run.facts import facts_of
+from shoal.run.simulation import Simulation
 from shoal.scenario.edit import apply
-from shoal.scenario.facts import facts_of
 from shoal.scenario.load import read_table, scenario_from
-from shoal.simulation import Simulation
 
 CLUSTERED = 0.6  # of random fifteen buoys of fifty, fewer than one in a hundred lie as close together in most frames
 DISPERSED = 0.9  # half of random fifteen lie closer together than 0.98

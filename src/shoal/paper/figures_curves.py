@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from shoal.drawing.legend import headroom
+from shoal.drawing.style import FLEET_COLORS, INK, new_figure, style
 from shoal.paper.figures_peaks import PeakMark, peak_of
 from shoal.paper.figures_series import (
     ALL_SLOW,
@@ -23,8 +25,6 @@ from shoal.paper.figures_series import (
 )
 from shoal.paper.plan import AGENTS, MIXED
 from shoal.paper.results import Figure, Row
-from shoal.viz.legend import headroom
-from shoal.viz.style import FLEET_COLORS, INK, new_figure, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

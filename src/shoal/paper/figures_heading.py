@@ -3,8 +3,8 @@
 import math
 from typing import TYPE_CHECKING
 
+from shoal.drawing.style import FLEET_COLORS, GRAY, INK, TARGET, new_figure, style
 from shoal.paper.results import Figure, Row
-from shoal.viz.style import FLEET_COLORS, GRAY, INK, TARGET, new_figure, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

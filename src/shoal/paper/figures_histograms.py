@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from shoal.drawing.histogram import PHI_EDGES, draw_phi_bars, label_phi
+from shoal.drawing.style import INK, new_figure, style
 from shoal.metrics.heading_bearing import CENTERS
 from shoal.metrics.summary import Bounds
 from shoal.paper.curves import intervals
@@ -21,8 +23,6 @@ from shoal.paper.figures_series import (
 )
 from shoal.paper.plan import AGENTS, MIXED
 from shoal.paper.results import Figure, Row
-from shoal.viz.histogram import PHI_EDGES, draw_phi_bars, label_phi
-from shoal.viz.style import INK, new_figure, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from shoal.drawing.style import FLEET_COLORS, GRAY, TARGET, new_figure, style
 from shoal.paper.figures_series import (
     DOUBLE,
     RESPONSE,
@@ -19,7 +20,6 @@ from shoal.paper.figures_series import (
     show_means,
 )
 from shoal.paper.results import Figure, Row
-from shoal.viz.style import FLEET_COLORS, GRAY, TARGET, new_figure, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

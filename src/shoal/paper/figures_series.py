@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from shoal.drawing.curves import draw_curve
 from shoal.metrics.summary import Bounds
 from shoal.paper.curves import FEW, intervals
 from shoal.paper.plan import AGENTS
 from shoal.paper.results import Row
 from shoal.scenario.edit import SHORTHANDS
-from shoal.viz.curves import draw_curve
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

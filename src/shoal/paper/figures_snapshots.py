@@ -4,13 +4,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from shoal.drawing.snapshot import draw_snapshot
+from shoal.drawing.style import FLEET_COLORS, GRAY, INK, new_figure, style
+from shoal.drawing.words import count
 from shoal.paper.figures_series import DOUBLE
 from shoal.paper.results import Figure, Row
 from shoal.paper.snapshots import Clustering, Locked, find_clustering, find_locked
 from shoal.record.record import Record
-from shoal.viz.snapshot import draw_snapshot
-from shoal.viz.style import FLEET_COLORS, GRAY, INK, new_figure, style
-from shoal.viz.words import count
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

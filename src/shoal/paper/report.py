@@ -11,9 +11,9 @@ from pathlib import Path
 
 from shoal.core.errors import RecordError
 from shoal.core.files import write_whole
+from shoal.drawing.files import save_figure
 from shoal.paper.report_page import Picture, page
 from shoal.paper.results import Claim, Figure, Reproduction, Row
-from shoal.viz.files import save_figure
 
 LARGEST_SVG = 300_000  # [B] an SVG over this size is inlined as PNG
 

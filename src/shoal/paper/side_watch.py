@@ -10,9 +10,9 @@ from shoal.paper.curves import Floats
 from shoal.paper.plan import SHARE_NEIGHBORS, SPEEDS
 from shoal.paper.side_plan import CONSTANT, constant
 from shoal.record.trajectory import Trajectory
+from shoal.run.simulation import Simulation
 from shoal.scenario.edit import apply
 from shoal.scenario.load import read_table, scenario_from
-from shoal.simulation import Simulation
 
 NEAREST = 6  # neighbors of a hexagonal lattice
 APART = 100  # steps after which neighbors are compared

@@ -5,12 +5,12 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from shoal.drawing.footage import footage
 from shoal.metrics.heading_bearing import which_stationary
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.scenario.load import load
 from shoal.scenario.schema import Scenario
-from shoal.viz.footage import footage
 
 STEPS = 20_000  # searched for the moments
 _EDGE = 1e-6  # [m] from the wall

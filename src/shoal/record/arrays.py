@@ -64,7 +64,7 @@ def _read_tally(archive: zipfile.ZipFile, names: set[str], run: int, empty: Tall
     for name, like in zip(Tally._fields, empty, strict=True):
         file = f"{run}.{name}.npy"
         if file not in names and not complete:
-            parts[name] = np.full_like(like, np.nan if like.dtype.kind == "f" else 0)
+            parts[name] = np.where(like > 0, like, np.nan) if like.dtype.kind == "f" else np.zeros_like(like)
             continue
         with archive.open(file) as stream:
             parts[name] = _read_like(stream, like, f"tallies.npz: {run}.{name}")

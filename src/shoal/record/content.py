@@ -8,8 +8,8 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from shoal.core.agents import REPORT_BYTES
 from shoal.core.errors import RecordError
+from shoal.core.messages import REPORT_BYTES
 from shoal.version import RESULTS_VERSION, VERSION
 
 FORMAT = 2  # 1 had no checksums

@@ -20,7 +20,7 @@ from shoal.core.files import WholeFolder, whole_file
 from shoal.metrics.heading_bearing import CENTERS
 from shoal.metrics.summary import METRICS, evaluate, fleet_fluctuation, fleet_stationary, phi_histogram
 from shoal.record.trajectory import Trajectory
-from shoal.scenario.plugins import find_strategy
+from shoal.strategies.plugins import find_strategy
 
 if TYPE_CHECKING:
     import xarray

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from shoal.core.text import plain
+from shoal.strategies.plugins import find_strategy
 
 
 def strategy_text(scenario: Mapping[str, Any]) -> str:
@@ -16,7 +17,15 @@ def degree_text(scenario: Mapping[str, Any]) -> str:
     network = scenario["network"]
     if adaptive := network.get("adaptive"):
         return f"{adaptive['fewest']} to {adaptive['most']} (adaptive)"
-    return _of_fleets(scenario, lambda fleet: fleet.get("neighbors") or network["neighbors"])
+    return _of_fleets(scenario, lambda fleet: degree_of_fleet(scenario, fleet))
+
+
+def degree_of_fleet(scenario: Mapping[str, Any], fleet: Mapping[str, Any]) -> int | str:
+    """K of a fleet's agents before it adapts, or "all": so asked for, or what its strategy is defined for."""
+    chosen = fleet.get("strategy") or scenario["strategy"]
+    strategy = find_strategy(chosen["name"], chosen.get("source"))
+    degree: int | str = fleet.get("neighbors") or scenario["network"]["neighbors"]
+    return "all" if strategy and strategy.hears_all else degree
 
 
 def _of_fleets(scenario: Mapping[str, Any], value: Callable[[Mapping[str, Any]], Any]) -> str:

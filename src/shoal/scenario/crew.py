@@ -33,6 +33,16 @@ class Crew:
         return all(each.builtin for each in self.strategies)
 
     @property
+    def sums(self) -> int:
+        """How many rows of sums the engine keeps."""
+        return max(2, *(len(each.sums._fields) for each in self.strategies))
+
+    @property
+    def ranked(self) -> bool:
+        """Whether ranks are worked out."""
+        return any(each.ranked for each in self.strategies)
+
+    @property
     def name(self) -> str:
         """Names of the strategies, each once."""
         return "+".join(dict.fromkeys(each.name for each in self.strategies))

@@ -12,9 +12,9 @@ from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.core.text import cut, quoted
 from shoal.core.units import Unit
 from shoal.scenario.frozen import plain
-from shoal.scenario.plugins import name_of
 from shoal.scenario.schema import Scenario
 from shoal.scenario.strategy_choice import StrategyChoice
+from shoal.strategies.plugins import name_of
 
 Table = dict[str, Any]
 

@@ -15,10 +15,10 @@ from pydantic import ValidationError
 from shoal.core.errors import ScenarioError, StrategyError, did_you_mean
 from shoal.core.text import cut, quoted
 from shoal.scenario.frozen import MOST_ENTRIES, plain
-from shoal.scenario.plugins import find_strategy, load_strategies
 from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Join, Loss, Motion, Network, Scenario
 from shoal.scenario.strategy_choice import StrategyParamsError, params_model
 from shoal.scenario.targets import TARGETS
+from shoal.strategies.plugins import find_strategy, load_strategies
 
 LARGEST = 10**6  # bytes of a scenario file
 _DEPTH = "a scenario is four levels deep at most"

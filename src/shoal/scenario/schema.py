@@ -250,13 +250,26 @@ class Scenario(Frozen):
         return max(self.area.width, self.area.height) / ARENA_UNITS
 
     @property
-    def hash(self) -> str:
-        """16 hex digits over everything that shapes a run but its seed, its name and its description."""
-        content = self.model_dump(mode="json", exclude={"name", "description", "seed"})
-        own = [fleet["strategy"] for fleet in content["fleets"] if fleet["strategy"]]
-        for part in (content["strategy"], *own, *content["targets"]):
+    def choices(self) -> dict[str, Any]:
+        """All that shapes a run but its seed, as far as it is not left at its default.
+
+        A field that later versions add, off by default, is no part of it: hashes and stores stay what they are.
+        """
+        content = self.model_dump(mode="json", exclude={"name", "description", "seed"}, exclude_defaults=True)
+        for target, part in zip(self.targets, content["targets"], strict=True):
+            part["kind"] = target.kind
+        for part in (
+            content["strategy"],
+            *(fleet.get("strategy", {}) for fleet in content["fleets"]),
+            *content["targets"],
+        ):
             part.pop("file", None)  # what a file says counts (source, digest), not where it lies
-        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:16]
+        return content
+
+    @property
+    def hash(self) -> str:
+        """16 hex digits over `choices`."""
+        return hashlib.sha256(json.dumps(self.choices, sort_keys=True).encode()).hexdigest()[:16]
 
     @model_validator(mode="after")
     def _two_agents(self) -> Self:

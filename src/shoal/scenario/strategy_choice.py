@@ -9,9 +9,9 @@ from pydantic import ValidationError as PydanticError
 from pydantic_core import PydanticCustomError, core_schema
 
 from shoal.core.units import Choice, Range, Says, Unit
-from shoal.scenario.installed import installed_names, load_all_installed
-from shoal.scenario.plugins import find_strategy, load_strategies, source_of
 from shoal.strategies import CATALOGUE, Strategy
+from shoal.strategies.installed import installed_names, load_all_installed
+from shoal.strategies.plugins import find_strategy, load_strategies, source_of
 
 
 class StrategyChoice:
@@ -35,6 +35,11 @@ class StrategyChoice:
         """The table as a scenario file spells it."""
         loaded = {"file": self.file, "source": self.source}
         return {"name": self.name, **{key: text for key, text in loaded.items() if text}, **self.params}
+
+    def choices(self) -> dict[str, Any]:
+        """The table without the parameters that are left at their defaults."""
+        model = params_model(self.owner).model_fields
+        return {key: each for key, each in self.flat().items() if key not in self.params or each != model[key].default}
 
     def kernel_params(self) -> Any:
         """The strategy's NamedTuple of parameters: words become their index, numbers the type of the default."""
@@ -89,7 +94,9 @@ class StrategyChoice:
     def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(
             cls._validate_for_pydantic,
-            serialization=core_schema.plain_serializer_function_ser_schema(cls.flat),
+            serialization=core_schema.plain_serializer_function_ser_schema(
+                lambda choice, info: choice.choices() if info.exclude_defaults else choice.flat(), info_arg=True
+            ),
         )
 
     @classmethod

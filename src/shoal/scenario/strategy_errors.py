@@ -4,11 +4,10 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from numba.core.errors import NumbaError
-
+from shoal.compiler.kernel import NumbaError
 from shoal.core.errors import StrategyError
 from shoal.scenario.crew import Crew
-from shoal.scenario.plugins import line_in
+from shoal.strategies.plugins import line_in
 
 _TELLS = "rror|nknown|not defined|resolve|nvalid|No implementation"
 _SILENT = "Failed in nopython mode|Rejected as|^During|^File "
@@ -52,8 +51,10 @@ def _uncompiled(crew: Crew, told: str) -> StrategyError:
 
 def _reason(told: str) -> str:
     """The one line of the compiler's pages that says most, without the types of all arguments."""
+    if counted := re.search(r"influence returns \d+ numbers?, but[^;\n]*", told):
+        return counted.group()
     if re.search(r"failed to unpack|unify return type|setitem\(array\(float64", told):
-        return "a function does not return what it should: decide and influence return two numbers"
+        return "a function does not return what it should: decide returns two numbers, influence one for each sum"
     lines = [line.strip() for line in told.splitlines() if line.strip()]
     saying = [line for line in lines if not re.search(_SILENT, line)] or lines
     reason = next((line for line in reversed(saying) if re.search(_TELLS, line)), saying[0])

@@ -11,8 +11,8 @@ only; where no force acts, a random walk.
 import math
 from typing import Annotated, NamedTuple
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import normal, uniform
-from shoal.core.kernel import kernel
 from shoal.core.units import Meters, Range, Says, Seconds
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import turned_from_walls

@@ -1,24 +1,26 @@
-"""The strategy contract: four small functions that see only what a buoy could know.
+"""The strategy contract: five small functions that see only what a buoy could know.
 
     begin(me, memory, params, draw)             once, at the start: set up the memory
     leads(other, params) -> bool                may this neighbor be followed?
     priority(me, other, params) -> float        of those that may, the lowest is followed
-    influence(me, other, params) -> (x, y)      what one neighbor adds to the sum that I hear
+    influence(me, other, params) -> (x, y)      what one neighbor adds to the sums that I hear, as many as are named
     decide(me, heard, memory, params, draw) -> (vx, vy)     the velocity I want [m/s]
 
-The shape is message passing: an additive influence per linked pair, one leader, one decision per agent. It is what
+The shape is message passing: additive influences per linked pair, one leader, one decision per agent. It is what
 lets one plain function serve the vectorized engine, a buoy that loops over its inbox, and a GPU thread.
 """
 
+from collections import namedtuple
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
-from numba.extending import overload
-
+from shoal.compiler.kernel import TypingError, kernel, overload
 from shoal.core.errors import StrategyError
-from shoal.core.kernel import kernel
+from shoal.core.messages import Heard
 from shoal.core.text import checked_name
+from shoal.strategies.rank import asks_for_rank
 
 
 @dataclass(frozen=True)
@@ -31,6 +33,8 @@ class Strategy:
     params : NamedTuple class of its parameters, with units in their annotations
     memory : unit of each remembered field, by name
     told : the fields of memory that reports carry; they come first in memory
+    sums : class of heard.sums, a NamedTuple with one number per sum
+    ranked : whether influence or priority ask for other.rank
     informed : whether it is told the truth about targets, which no buoy could know
     hears_all : whether it is defined for all-to-all communication, whatever k is
     summary : first line of the docstring of `decide`
@@ -42,6 +46,8 @@ class Strategy:
     params: type[Any]
     memory: dict[str, str]
     told: tuple[str, ...]
+    sums: type[Any]
+    ranked: bool
     informed: bool
     hears_all: bool
     summary: str
@@ -75,6 +81,7 @@ def strategy(
     params: type[Any],
     memory: dict[str, str] | None = None,
     tells: tuple[str, ...] = (),
+    sums: tuple[str, ...] = ("x", "y"),
     informed: bool = False,
     hears_all: bool = False,
     reference: str = "",
@@ -91,17 +98,19 @@ def strategy(
     params : NamedTuple class; every field has a default and, if it has a unit, an annotation such as shoal.Meters
     memory : {field: unit}; each agent remembers one number per field, `memory.field` reads and writes it
     tells : fields of the memory that go into every report, where neighbors read them as other.told.field
+    sums : names of the numbers that `influence` returns, of which heard.sums.NAME is the sum over all neighbors;
+        heard.sum_x, heard.sum_y are the first two
     informed : give `begin` and `decide` the truth about the nearest target, me.truth: for references, not for buoys
     hears_all : every agent hears every other, whatever network.neighbors says
     reference : where it was published
     begin : sets up the memory before the first step (default: zeros)
     leads, priority : who is followed (default: the nearest neighbor on target)
-    influence : what each neighbor adds to heard.sum_x, heard.sum_y (default: nothing)
+    influence : what each neighbor adds to the sums (default: nothing)
 
     Raises
     ------
     StrategyError : params are no NamedTuple, belong to another strategy, or one has no default; a field is told that
-        is not remembered; a function takes other arguments
+        is not remembered; sums are not names; a function takes other arguments, or asks for what it cannot know
     """
 
     def register(decide: Callable[..., Any]) -> Callable[..., Any]:
@@ -134,15 +143,22 @@ def strategy(
             if function and (count := _arguments(function)) != len(ARGUMENTS[role]):
                 wanted = f"({', '.join(ARGUMENTS[role])})"
                 raise StrategyError(where, f"{role} takes {count} arguments", f"let it take {wanted}")
+        if influence is None and tuple(sums) != _TWO_SUMS:
+            raise StrategyError(where, "names sums, but nothing adds to them", "give influence=...")
+        if leads and "rank" not in fields and asks_for_rank(leads):
+            problem = "leads asks for other.rank, but is asked once for all listeners"
+            raise StrategyError(where, problem, "let priority return math.inf for whom this agent does not follow")
         remembered = dict(memory or {})
         compiled = kernel(decide)
         plain: Any = getattr(decide, "py_func", decide)
-        _add(
+        _register(
             Strategy(
                 name=name,
                 params=params,
                 memory={field: remembered[field] for field in (*tells, *remembered)},
                 told=tuple(tells),
+                sums=_sums_class(where, sums),
+                ranked=any(asks_for_rank(function) for function in (influence, priority) if function),
                 informed=informed,
                 hears_all=hears_all,
                 summary=(plain.__doc__ or "").strip().split("\n")[0],
@@ -159,6 +175,18 @@ def strategy(
         return compiled
 
     return register
+
+
+_TWO_SUMS = ("x", "y")
+
+
+def _sums_class(where: str, names: Any) -> type[Any]:
+    try:
+        if isinstance(names, str):
+            raise TypeError("is one word, not a tuple of names")
+        return namedtuple("Sums", tuple(names))
+    except (TypeError, ValueError) as error:
+        raise StrategyError(where, f"sums={names!r}: {error}", 'write sums=("push_x", "push_y")') from None
 
 
 def _arguments(function: Callable[..., Any]) -> int:
@@ -183,11 +211,6 @@ def _nearest_first(me, other, params):
     return dx * dx + dy * dy
 
 
-@kernel
-def _no_influence(me, other, params):
-    return 0.0, 0.0
-
-
 # The engine calls these names; which strategy answers is decided by the type of `params`. Passing functions as
 # arguments or closures would recompile the engine in every process; dispatching on a type is cached by numba.
 
@@ -208,8 +231,38 @@ def priority(me: Any, other: Any, params: Any) -> Any:
 
 
 def influence(me: Any, other: Any, params: Any) -> Any:
-    """Ask the owner of params what a neighbor adds to the sum."""
-    return (_owner(type(params)).influence or _no_influence)(me, other, params)
+    """Ask the owner of params what a neighbor adds to each of its sums."""
+    owner = _owner(type(params))
+    if owner.influence is None:
+        return (0.0,) * len(owner.sums._fields)
+    return counted(owner.influence(me, other, params), params)
+
+
+def counted(values: Any, params: Any) -> Any:
+    """What an influence returned as a tuple with a number per sum; that of a team is filled up with zeros."""
+    owner = _owner(type(params))
+    if owner.name == TEAM:
+        return (*values, *(0.0,) * (_width(params, type(params)) - len(values)))
+    values = values if isinstance(values, tuple) else (values,)
+    if problem := _miscounted(owner, len(values)):
+        raise StrategyError(owner.source, problem, _COUNT_THEM)
+    return values
+
+
+def clear(sums: Any, i: int, params: Any) -> None:
+    """Set the sums of listener i (S, L) to zero."""
+    sums[: _width(params, type(params)), i] = 0.0
+
+
+def add(sums: Any, i: int, values: Any, linked: bool) -> None:
+    """Add to the sums of listener i (S, L) what a neighbor exerts, if it is linked."""
+    for number, value in enumerate(values):
+        sums[number, i] += value if linked else 0.0
+
+
+def rank_of(rank: Any, j: int, i: int, params: Any) -> Any:
+    """The rank of speaker j with listener i, None if the owner of params does not ask for ranks."""
+    return rank[j, i] if _has(params, type(params), "ranked") else None
 
 
 def has_influence(params: Any) -> Any:
@@ -223,8 +276,12 @@ def is_informed(params: Any) -> Any:
 
 
 def decide(me: Any, heard: Any, memory: Any, params: Any, draw: Any) -> Any:
-    """Ask the owner of params for the velocity wanted."""
-    return _owner(type(params)).decide(me, heard, memory, params, draw)
+    """Ask the owner of params for the velocity wanted; heard.sums has its sums in their order, and maybe more."""
+    owner = _owner(type(params))
+    if owner.name != TEAM:
+        sums = owner.sums(*heard.sums[: len(owner.sums._fields)])
+        heard = heard._replace(sum_x=heard.sums[0], sum_y=heard.sums[1], sums=sums)
+    return owner.decide(me, heard, memory, params, draw)
 
 
 @overload(begin, inline="always")
@@ -247,8 +304,42 @@ def _priority(me, other, params):
 
 @overload(influence, inline="always")
 def _influence(me, other, params):
-    chosen = _owner(params.instance_class).influence or _no_influence
-    return lambda me, other, params: chosen(me, other, params)
+    owner = _owner(params.instance_class)
+    chosen, zeros = owner.influence, (0.0,) * len(owner.sums._fields)
+    if chosen is None:
+        return lambda me, other, params: zeros
+    return lambda me, other, params: counted(chosen(me, other, params), params)
+
+
+@overload(counted, inline="always")
+def _counted(values, params):
+    owner = _owner(params.instance_class)
+    count = getattr(values, "count", 1)  # a tuple has one
+    if owner.name != TEAM:
+        if problem := _miscounted(owner, count):
+            raise TypingError(f"{problem}; {_COUNT_THEM}")
+        return (lambda values, params: values) if hasattr(values, "count") else (lambda values, params: (values,))
+    zeros = (0.0,) * (_width(params.types, params.instance_class) - count)
+    return lambda values, params: values + zeros
+
+
+@overload(clear, inline="always")
+def _clear(sums, i, params):
+    cleared = _clearing(_width(params.types, params.instance_class))
+    return lambda sums, i, params: cleared(sums, i)
+
+
+@overload(add, inline="always")
+def _add(sums, i, values, linked):
+    added = _adding(values.count)
+    return lambda sums, i, values, linked: added(sums, i, values, linked)
+
+
+@overload(rank_of, inline="always")
+def _rank_of(rank, j, i, params):
+    if _has(params.types, params.instance_class, "ranked"):
+        return lambda rank, j, i, params: rank[j, i]
+    return lambda rank, j, i, params: None
 
 
 @overload(has_influence, inline="always")
@@ -267,8 +358,86 @@ def _is_informed(params):
 
 @overload(decide, inline="always")
 def _decide(me, heard, memory, params, draw):
-    chosen = _owner(params.instance_class).decide
-    return lambda me, heard, memory, params, draw: chosen(me, heard, memory, params, draw)
+    owner = _owner(params.instance_class)
+    chosen, named, taken = owner.decide, owner.sums, _taking(len(owner.sums._fields))
+    if owner.name == TEAM:
+        return lambda me, heard, memory, params, draw: chosen(me, heard, memory, params, draw)
+
+    def decide_by_name(me, heard, memory, params, draw):
+        by_name = Heard(  # here and not in a function: numba lets none return what holds a record
+            heard.found,
+            heard.x,
+            heard.y,
+            heard.vx,
+            heard.vy,
+            heard.on_target,
+            heard.sums[0],
+            heard.sums[1],
+            heard.neighbors,
+            heard.told,
+            named(*taken(heard.sums)),
+        )
+        return chosen(me, by_name, memory, params, draw)
+
+    return decide_by_name
+
+
+# Loops over sums, unrolled: their number is known when a strategy is compiled.
+
+
+@cache
+def _clearing(count: int) -> Any:
+    if count == 0:
+        return kernel(lambda sums, i: None)
+    before, last = _clearing(count - 1), count - 1
+
+    def clear_all(sums, i):
+        before(sums, i)
+        sums[last, i] = 0.0
+
+    return kernel(clear_all)
+
+
+@cache
+def _adding(count: int) -> Any:
+    if count == 0:
+        return kernel(lambda sums, i, values, linked: None)
+    before, last = _adding(count - 1), count - 1
+
+    def add_all(sums, i, values, linked):
+        before(sums, i, values, linked)
+        sums[last, i] += values[last] if linked else 0.0
+
+    return kernel(add_all)
+
+
+@cache
+def _taking(count: int) -> Any:
+    if count == 0:
+        return kernel(lambda sums: ())
+    before, last = _taking(count - 1), count - 1
+
+    def take_all(sums):
+        return (*before(sums), sums[last])
+
+    return kernel(take_all)
+
+
+_COUNT_THEM = "return as many numbers as sums=(...) names, which are x and y if it names none"
+
+
+def _miscounted(owner: Strategy, count: int) -> str:
+    """What is wrong with an influence of so many numbers; nothing if they are as many as the sums."""
+    names = owner.sums._fields
+    return "" if count == len(names) else f"influence returns {count} numbers, but the sums are {', '.join(names)}"
+
+
+def _width(parts: Any, params_class: type[Any]) -> int:
+    """How many sums the owner of params has, or the one with most of them in a team (values or their types)."""
+    owner = _owner(params_class)
+    if owner.name != TEAM:
+        return len(owner.sums._fields)
+    return max(_width(getattr(part, "types", part), kind) for part, kind in _inside(parts))
 
 
 def _has(parts: Any, params_class: type[Any], trait: str) -> bool:
@@ -276,15 +445,20 @@ def _has(parts: Any, params_class: type[Any], trait: str) -> bool:
     owner = _owner(params_class)
     if owner.name != TEAM:
         return bool(getattr(owner, trait))
+    return any(_has(getattr(part, "types", part), kind, trait) for part, kind in _inside(parts))
+
+
+def _inside(parts: Any) -> list[tuple[Any, type[Any]]]:
+    """The params inside those of a team, with their classes."""
     inside = [(part, getattr(part, "instance_class", type(part))) for part in parts]
-    return any(_has(getattr(part, "types", part), kind, trait) for part, kind in inside if kind in _OWNERS)
+    return [(part, kind) for part, kind in inside if kind in _OWNERS]
 
 
 def _owner(params_class: type[Any]) -> Strategy:
     return _OWNERS[params_class]
 
 
-def _add(known: Strategy) -> None:
+def _register(known: Strategy) -> None:
     if known.name != TEAM:
         CATALOGUE[known.name] = known
     _OWNERS[known.params] = known

@@ -19,7 +19,7 @@ How each part pays, and when it fails: docs/explanation/beyond-the-paper.md.
 import math
 from typing import Annotated, NamedTuple
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 from shoal.core.units import Meters, Range, Says, Seconds
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import own_station, toward

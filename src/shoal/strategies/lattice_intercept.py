@@ -8,7 +8,7 @@ Isaacs, "Differential Games", Wiley 1965), if that point is near its station; el
 import math
 from typing import Annotated, NamedTuple
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 from shoal.core.units import Meters, Range, Says
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import own_station, toward

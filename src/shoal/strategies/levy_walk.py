@@ -6,8 +6,8 @@ Viswanathan et al., "Optimizing the success of random searches", Nature 401, 199
 import math
 from typing import Annotated, NamedTuple
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import uniform
-from shoal.core.kernel import kernel
 from shoal.core.units import Meters, Range, Says
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import turned_from_walls

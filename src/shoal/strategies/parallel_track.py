@@ -8,7 +8,7 @@ before the edges of the row. By the book: who sees a target carries on.
 
 from typing import Annotated, NamedTuple
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 from shoal.core.units import Range, Says
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import on_snake, rows_of, toward, way_point_reached

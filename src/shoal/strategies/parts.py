@@ -2,7 +2,7 @@
 
 import math
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel, overload
 
 
 @kernel
@@ -19,7 +19,7 @@ def inverse_power(me, other, exponent):
         fourth = inverse * inverse
         push = fourth * fourth * math.sqrt(square)  # r^-7
     else:
-        push = min(square ** (-0.5 * (exponent + 1.0)), _LARGEST_PUSH)
+        push = min(raised(square, -0.5 * (exponent + 1.0)), _LARGEST_PUSH)
     return push * dx, push * dy
 
 
@@ -29,7 +29,20 @@ def power(base, exponent):
     if exponent == 6.0:
         cube = base * base * base
         return cube * cube
-    return base**exponent
+    return raised(base, exponent)
+
+
+def raised(base: float, exponent: float) -> float:
+    """base^exponent, infinite where it is too large, in plain Python too."""
+    try:
+        return float(base**exponent)
+    except (OverflowError, ZeroDivisionError):
+        return math.inf
+
+
+@overload(raised, inline="always")
+def _raised(base, exponent):
+    return lambda base, exponent: base**exponent
 
 
 @kernel

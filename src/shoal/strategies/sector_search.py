@@ -9,7 +9,7 @@ edge of the area it is cut off. By the book: who sees a target carries on.
 import math
 from typing import Annotated, NamedTuple
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 from shoal.core.units import Range, Says
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import inside, middle_of_part, size_of_part, toward, way_point_reached

@@ -4,9 +4,8 @@ Teams nest, so a swarm may have several strategies. Each agent decides, listens 
 says; all remember in records that have the fields of every strategy.
 """
 
+import math
 from typing import Any, NamedTuple
-
-import numpy as np
 
 from shoal.strategies import contract
 from shoal.strategies.contract import strategy
@@ -38,14 +37,14 @@ def _level() -> Any:
     def priority(me, other, params):
         """As the agent's own strategy ranks; those that it would not follow come last of all, at infinity."""
         if me.id < params.until:
-            return contract.priority(me, other, params.first) if contract.leads(other, params.first) else np.inf
-        return contract.priority(me, other, params.rest) if contract.leads(other, params.rest) else np.inf
+            return contract.priority(me, other, params.first) if contract.leads(other, params.first) else math.inf
+        return contract.priority(me, other, params.rest) if contract.leads(other, params.rest) else math.inf
 
     def influence(me, other, params):
         """As the agent's own strategy is influenced."""
         if me.id < params.until:
-            return contract.influence(me, other, params.first)
-        return contract.influence(me, other, params.rest)
+            return contract.counted(contract.influence(me, other, params.first), params)
+        return contract.counted(contract.influence(me, other, params.rest), params)
 
     def decide(me, heard, memory, params, draw):
         """Each fleet by its own strategy."""

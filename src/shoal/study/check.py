@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from shoal.build import open_tracks
+from shoal.run.build import open_tracks
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
 

@@ -27,7 +27,7 @@ from shoal.experiments.sweep import Progress
 from shoal.metrics.summary import METRICS, bounds_of
 from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source
-from shoal.scenario.plugins import name_of
+from shoal.strategies.plugins import name_of
 from shoal.study.folder import positive, progress_of, store_folder
 from shoal.study.varied import Values, varied, written
 
@@ -100,8 +100,8 @@ class Compared:
 
     def plot(self) -> "Figure":
         """Draw curves if one number varies, else bars: a panel per condition (extra: plots)."""
+        from shoal.drawing.style import style
         from shoal.study.comparison_figure import comparison_figure
-        from shoal.viz.style import style
 
         with style():
             return comparison_figure(self.comparison, self.metric)

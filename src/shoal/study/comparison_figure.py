@@ -1,17 +1,17 @@
-"""Comparisons as figures: what the charts of viz are given."""
+"""Comparisons as figures: what charts are given."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from shoal.drawing.comparison import Bar, Panel, bars_figure, curves_figure
+from shoal.drawing.sweep import Curve
+from shoal.drawing.words import field_words
 from shoal.experiments.comparison import Comparison, Condition
 from shoal.experiments.contenders import LATTICE
 from shoal.experiments.leaderboard import Leaderboard
 from shoal.metrics.summary import METRICS
-from shoal.viz.comparison import Bar, Panel, bars_figure, curves_figure
-from shoal.viz.sweep import Curve
-from shoal.viz.words import field_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

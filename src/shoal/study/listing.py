@@ -7,10 +7,10 @@ from shoal.core.errors import MissingExtraError, UnknownNameError
 from shoal.core.sheet import Sheet
 from shoal.experiments.comparison import direction_of
 from shoal.metrics.summary import METRICS
-from shoal.scenario.installed import load_all_installed
 from shoal.scenario.load import load, presets
 from shoal.scenario.strategy_choice import params_model
 from shoal.strategies import CATALOGUE, Strategy
+from shoal.strategies.installed import load_all_installed
 
 if TYPE_CHECKING:
     import pandas

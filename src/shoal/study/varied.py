@@ -7,8 +7,8 @@ from typing import Any
 from shoal.core.errors import ScenarioError
 from shoal.experiments.design import parse_values
 from shoal.scenario.frozen import plain
-from shoal.scenario.plugins import name_of
 from shoal.scenario.strategy_choice import StrategyChoice
+from shoal.strategies.plugins import name_of
 
 Values = Iterable[Any] | str | float
 

@@ -1,57 +1,82 @@
-"""The one place where positions change: speed limit, step, walls."""
+"""The one place where positions change: speed limit, step, walls; each a function of numbers, and a loop."""
 
 import math
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 
 
 @kernel
-def limit_speed(command_x, command_y, max_speed, divide):
-    """Scale velocities above an agent's top speed down to it, in place.
+def limited(vx, vy, max_speed, divide):
+    """Scale a velocity above the top speed down to it [m/s].
 
     With `divide`, do what Algorithm 2 of the paper prints instead: v <- v / vmax for every agent, which never limits a
     1 m/s buoy and slows the others.
     """
+    scale = speed_scale(vx, vy, max_speed, divide)
+    return vx * scale, vy * scale
+
+
+@kernel
+def maneuvered(vx, vy, wanted_x, wanted_y, turn, change):
+    """Limit how far a wanted velocity turns from the present one, then how much it changes.
+
+    vx, vy, wanted_x, wanted_y [m/s]; turn : the most in a step [rad]; change : the most in a step [m/s]
+    """
+    angle = math.atan2(vx * wanted_y - vy * wanted_x, vx * wanted_x + vy * wanted_y)
+    if abs(angle) > turn and vx * vx + vy * vy > 0.0:
+        heading = math.atan2(vy, vx) + (turn if angle > 0.0 else -turn)
+        speed = math.sqrt(wanted_x * wanted_x + wanted_y * wanted_y)
+        wanted_x = speed * math.cos(heading)
+        wanted_y = speed * math.sin(heading)
+    change_x = wanted_x - vx
+    change_y = wanted_y - vy
+    size = math.sqrt(change_x * change_x + change_y * change_y)
+    too_much = size > change
+    return (
+        vx + change / size * change_x if too_much else wanted_x,
+        vy + change / size * change_y if too_much else wanted_y,
+    )
+
+
+@kernel
+def moved(place, command, clamp, time_step):
+    """Advance along one axis by a time-step and stop at the wall: place [m] and velocity [m/s] after it.
+
+    At the wall the velocity becomes the displacement really made. An agent that starts outside the wall is put inside,
+    which is no motion of its own: it counts from the wall on.
+    """
+    free = place + command * time_step
+    there = min(max(free, -clamp), clamp)
+    inside = min(max(place, -clamp), clamp)
+    return there, command if there == free else (there - inside) / time_step
+
+
+@kernel
+def limit_speed(command_x, command_y, max_speed, divide):
+    """Limit the velocities (B,) of a block of agents, in place."""
     for i in range(command_x.size):
-        limit = max_speed[i]
-        speed = math.sqrt(command_x[i] * command_x[i] + command_y[i] * command_y[i])
-        scale = 1.0 / limit if divide else limit / (speed if speed > limit else limit)
-        command_x[i] *= scale
-        command_y[i] *= scale
+        command_x[i], command_y[i] = limited(command_x[i], command_y[i], max_speed[i], divide)
+
+
+@kernel
+def speed_scale(vx, vy, max_speed, divide):
+    """By what a wanted velocity is multiplied: 1 within the top speed [m/s], 1 / top speed with `divide`."""
+    speed = math.sqrt(vx * vx + vy * vy)
+    return 1.0 / max_speed if divide else max_speed / (speed if speed > max_speed else max_speed)
 
 
 @kernel
 def limit_maneuver(swarm, first, last, time_step):
-    """Limit how far the wanted velocity of agents first..last turns in a step, then how much it changes, in place."""
+    """Limit the maneuvers of agents first..last, in place."""
     for i in range(first, last):
-        vx, vy = swarm.vx[i], swarm.vy[i]
-        wanted_x, wanted_y = swarm.command_x[i], swarm.command_y[i]
-        angle = math.atan2(vx * wanted_y - vy * wanted_x, vx * wanted_x + vy * wanted_y)
-        most = swarm.max_turn_rate[i] * time_step
-        if abs(angle) > most and vx * vx + vy * vy > 0.0:
-            heading = math.atan2(vy, vx) + (most if angle > 0.0 else -most)
-            speed = math.sqrt(wanted_x * wanted_x + wanted_y * wanted_y)
-            wanted_x = speed * math.cos(heading)
-            wanted_y = speed * math.sin(heading)
-        change_x = wanted_x - vx
-        change_y = wanted_y - vy
-        change = math.sqrt(change_x * change_x + change_y * change_y)
-        most = swarm.max_acceleration[i] * time_step
-        limited = change > most
-        swarm.command_x[i] = vx + most / change * change_x if limited else wanted_x
-        swarm.command_y[i] = vy + most / change * change_y if limited else wanted_y
+        turn, change = swarm.max_turn_rate[i] * time_step, swarm.max_acceleration[i] * time_step
+        swarm.command_x[i], swarm.command_y[i] = maneuvered(
+            swarm.vx[i], swarm.vy[i], swarm.command_x[i], swarm.command_y[i], turn, change
+        )
 
 
 @kernel
 def move(position, velocity, command, clamp, time_step):
-    """Advance one axis by a time-step and stop at the wall, where the velocity becomes the displacement really made.
-
-    An agent that starts outside the wall is put inside, which is no motion of its own: it counts from the wall on.
-    """
+    """Move a block of agents (B,) along one axis, in place."""
     for i in range(position.size):
-        here = position[i]
-        free = here + command[i] * time_step
-        there = min(max(free, -clamp), clamp)
-        inside = min(max(here, -clamp), clamp)
-        velocity[i] = command[i] if there == free else (there - inside) / time_step
-        position[i] = there
+        position[i], velocity[i] = moved(position[i], command[i], clamp, time_step)

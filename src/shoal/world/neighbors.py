@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from shoal.compiler.kernel import kernel
 from shoal.core.agents import aligned_zeros
-from shoal.core.kernel import kernel
 
 ROUNDS = 40
 _BELOW = 1.0 - 2.0**-52
@@ -20,7 +20,8 @@ class Links(NamedTuple):
     """Squared distances [m^2] from speaker (row) to listener (lane), and each listener's reach; the rest is scratch.
 
     Rows are padded to an even number with infinity; an agent is infinitely far from itself. `wanted` is k of each
-    listener where not all pairs can be linked.
+    listener where not all pairs can be linked. `rank` says how many of those heard are nearer, agents for who is not
+    heard; it has no rows where the strategy does not ask.
     """
 
     square: np.ndarray
@@ -32,10 +33,12 @@ class Links(NamedTuple):
     low: np.ndarray
     high: np.ndarray
     off: np.ndarray
+    rank: np.ndarray
+    order: np.ndarray
 
 
-def new_links(agents: int, lanes: int) -> Links:
-    """Return links of `agents` speakers to `lanes` listeners."""
+def new_links(agents: int, lanes: int, ranked: bool = False) -> Links:
+    """Return links of `agents` speakers to `lanes` listeners; `ranked` ones know how many are nearer."""
     rows = agents + agents % 2
     square = aligned_zeros(rows * lanes).reshape((rows, lanes))
     square[:] = np.inf
@@ -52,7 +55,15 @@ def new_links(agents: int, lanes: int) -> Links:
         aligned_zeros(lanes),
         aligned_zeros(lanes),
         np.zeros(lanes, np.int64),
+        np.zeros((rows if ranked else 0, lanes), np.int64),
+        np.zeros(agents if ranked else 0, np.int64),
     )
+
+
+@kernel
+def linked(links, j, i):
+    """Whether listener i hears speaker j: whoever asks, asks here, so that neighbors can be found in another way."""
+    return links.square[j, i] <= links.reach[i]
 
 
 @kernel
@@ -264,3 +275,49 @@ def _settle_tie(links, i, k, agents):
         if surplus > 0 and square[j, i] == farthest:
             square[j, i] = np.inf
             surplus -= 1
+
+
+@kernel
+def rank_heard(links, agents):
+    """Set `links.rank` of every pair: by distance, ties to the lower index. Nothing where nobody asks for it."""
+    square, reach, rank, order = links.square, links.reach, links.rank, links.order
+    if rank.shape[0] == 0:
+        return
+    for i in range(reach.size):
+        count = 0
+        for j in range(agents):
+            rank[j, i] = agents
+            if linked(links, j, i):
+                order[count] = j
+                count += 1
+        _sort_by_distance(order, count, square, i)
+        for number in range(count):
+            rank[order[number], i] = number
+
+
+@kernel
+def _sort_by_distance(order, count, square, i):
+    """Sort the first `count` speakers by how far they are from listener i, then by index: a heap sort, in place."""
+    for root in range(count // 2 - 1, -1, -1):
+        _sift_down(order, root, count, square, i)
+    for last in range(count - 1, 0, -1):
+        order[0], order[last] = order[last], order[0]
+        _sift_down(order, 0, last, square, i)
+
+
+@kernel
+def _sift_down(order, root, count, square, i):
+    """Let the speaker at `root` sink in the heap until nobody below it is farther."""
+    while 2 * root + 1 < count:
+        below = 2 * root + 1
+        if below + 1 < count and _is_nearer(order[below], order[below + 1], square, i):
+            below += 1
+        if not _is_nearer(order[root], order[below], square, i):
+            return
+        order[root], order[below] = order[below], order[root]
+        root = below
+
+
+@kernel
+def _is_nearer(a, b, square, i):
+    return square[a, i] < square[b, i] or (square[a, i] == square[b, i] and a < b)

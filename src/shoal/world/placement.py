@@ -1,7 +1,7 @@
 """Where agents start, at rest."""
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import START_STEP, split, uniform
-from shoal.core.kernel import kernel
 
 PLACES = ("uniform", "center", "corner", "arena")
 _CENTER = 1
@@ -12,23 +12,29 @@ _CLUSTER = 0.1  # side of the cluster, as a share of the arena's
 
 
 @kernel
-def place(swarm, world, places, run_key):
-    """Scatter agents uniformly over where they may go, or over a tenth of its sides at the center or in a corner.
+def start(where, x, y):
+    """Where an agent starts, as shares of half the sides of where it may go, from two numbers uniform in [-1, 1).
 
-    Or over the whole arena, as in the runs that were published: the wall puts those outside it inside in step 1.
+    where : index into PLACES: all over, in a tenth of the sides at the center, or in a corner
+    """
+    if where == _CENTER:
+        return _CLUSTER * x, _CLUSTER * y
+    if where == _CORNER:
+        return _CLUSTER * (x + 1.0) - 1.0, _CLUSTER * (y + 1.0) - 1.0
+    return x, y
+
+
+@kernel
+def place(swarm, world, places, run_key):
+    """Scatter agents over where they may go, or over the whole arena, as in the runs that were published.
+
+    Of the latter the wall puts those outside it inside in step 1.
 
     places : index into PLACES of each fleet
     """
     for i in range(world.agents):
         draw = split(split(split(run_key, START_STEP), i), _PLACEMENT)
-        x = 2.0 * uniform(draw, 0) - 1.0
-        y = 2.0 * uniform(draw, 1) - 1.0
         where = places[swarm.fleet[i]]
-        if where == _CENTER:
-            x *= _CLUSTER
-            y *= _CLUSTER
-        elif where == _CORNER:
-            x = _CLUSTER * (x + 1.0) - 1.0
-            y = _CLUSTER * (y + 1.0) - 1.0
+        x, y = start(where, 2.0 * uniform(draw, 0) - 1.0, 2.0 * uniform(draw, 1) - 1.0)
         swarm.x[i] = (world.half_x if where == _ARENA else world.clamp_x) * x
         swarm.y[i] = (world.half_y if where == _ARENA else world.clamp_y) * y

@@ -2,11 +2,23 @@
 
 import math
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import START_STEP, split, uniform
-from shoal.core.kernel import kernel
 
 _WEAR = 1 << 22  # purposes that no strategy draws for
 _LOT = _WEAR + 1
+
+
+@kernel
+def is_there(number, joins, leaves):
+    """Whether an agent that joins and leaves at these steps is there at step `number`."""
+    return joins <= number < leaves
+
+
+@kernel
+def lifetime(chance, mean):
+    """An exponential lifetime by inversion, in the unit of its mean; `chance` is uniform in [0, 1)."""
+    return -mean * math.log(1.0 - chance)
 
 
 @kernel
@@ -16,7 +28,7 @@ def draw_lifetimes(swarm, world, lifetimes, run_key):
         mean = lifetimes[swarm.fleet[i]]
         if mean > 0.0:
             chance = uniform(split(split(run_key, START_STEP), i), _WEAR)
-            steps = -mean * math.log(1.0 - chance) / world.time_step
+            steps = lifetime(chance, mean) / world.time_step
             swarm.leaves[i] = swarm.joins[i] + 1 + int(min(steps, 1e15))
 
 
@@ -28,7 +40,7 @@ def draw_losses(swarm, world, number, fleet, count, run_key):
         lowest = 2.0
         for i in range(world.agents):
             lot = uniform(split(split(run_key, START_STEP), i), _LOT + number)
-            there = swarm.joins[i] <= number < swarm.leaves[i]
+            there = is_there(number, swarm.joins[i], swarm.leaves[i])
             if there and (fleet == -1 or swarm.fleet[i] == fleet) and lot < lowest:
                 chosen = i
                 lowest = lot
@@ -41,7 +53,7 @@ def update_presence(swarm, world, number):
     """Set who is alive at a step and return how many; who is not lies still."""
     active = 0
     for i in range(world.agents):
-        there = swarm.joins[i] <= number < swarm.leaves[i]
+        there = is_there(number, swarm.joins[i], swarm.leaves[i])
         swarm.alive[i] = 1.0 if there else 0.0
         active += there
         if not there:

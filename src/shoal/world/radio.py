@@ -1,19 +1,20 @@
 """What the radio does to messages: range, loss, delay, and how many neighbors an agent listens to."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from shoal.core.agents import Floats, width
+from shoal.compiler.kernel import kernel
+from shoal.core.agents import Floats, both, width
 from shoal.core.draws import split, uniform
-from shoal.core.kernel import kernel
+from shoal.world.neighbors import linked
 
 _LOSS = 1 << 33  # a stream of keys that neither agents nor targets draw from
 
 
-class Radio(NamedTuple):
-    """Settings of the network, and what was said in the last steps (D rows of L lanes, step s in row s % D).
+class Network(NamedTuple):
+    """What is chosen of the radio.
 
     limited : whether any pair may be out of touch; range_square [m^2]
     delay : steps that a report takes; loss : chance that a linked pair misses a step's report
@@ -28,12 +29,20 @@ class Radio(NamedTuple):
     fewest: npt.NDArray[np.int64]
     most: npt.NDArray[np.int64]
     patience: float
+
+
+class Air(NamedTuple):
+    """What is on the air: what was said in the last steps, D rows of L lanes, step s in row s % D."""
+
     x: Floats
     y: Floats
     vx: Floats
     vy: Floats
     on_target: npt.NDArray[np.bool_]
     told: Floats
+
+
+Radio = both("Radio", Air, Network, __name__)
 
 
 class Said(NamedTuple):
@@ -55,7 +64,7 @@ def new_radio(
     delay: int,
     loss: float,
     degree: tuple[int, int, float] | None,
-) -> Radio:
+) -> Any:
     """Return a radio that has heard nothing yet; `degree` is fewest, most and patience of an adaptive one."""
     rows = delay + 1
     fewest, most, patience = degree or (0, 0, 0.0)
@@ -105,6 +114,12 @@ def said(radio, swarm, number):
 
 
 @kernel
+def adapted(contact, on_contact, weight):
+    """The share of recent steps in contact, one step later; a step weighs `weight`."""
+    return contact + weight * (on_contact - contact)
+
+
+@kernel
 def limit_links(links, swarm, radio, first, agents, number):
     """Unlink who is out of range, not there, or has said nothing yet; links.wanted becomes k, or all that are left.
 
@@ -139,10 +154,20 @@ def lose_reports(links, radio, step_key, first, agents):
 def begin_degree(swarm, radio, agents):
     """Let k start between fewest and most, with the contact that belongs to it."""
     for i in range(agents):
-        span = radio.most[i] - radio.fewest[i]
-        above = min(max(swarm.neighbors[i] - radio.fewest[i], 0), span)
-        swarm.neighbors[i] = radio.fewest[i] + above
-        swarm.contact[i] = above / span if span > 0 else 0.0
+        swarm.neighbors[i], swarm.contact[i] = first_degree(swarm.neighbors[i], radio.fewest[i], radio.most[i])
+
+
+@kernel
+def first_degree(k, fewest, most):
+    """k to start with, between two bounds, and the contact that belongs to it."""
+    above = min(max(k - fewest, 0), most - fewest)
+    return fewest + above, above / (most - fewest) if most > fewest else 0.0
+
+
+@kernel
+def degree_of(contact, fewest, most):
+    """k that belongs to a contact from 0 to 1."""
+    return int(fewest + (most - fewest) * contact + 0.5)
 
 
 @kernel
@@ -159,10 +184,9 @@ def adapt_degree(swarm, radio, links, reports, first, last, world):
     for j in range(world.agents):
         if reports.on_target[j]:
             for i in range(last - first):
-                contact[i] |= 1 if links.square[j, i] <= links.reach[i] else 0
+                contact[i] |= 1 if linked(links, j, i) else 0
     weight = min(1.0, world.time_step / radio.patience)
     for i in range(first, last):
         if swarm.alive[i] > 0.0:
-            swarm.contact[i] += weight * (contact[i - first] - swarm.contact[i])
-            degree = radio.fewest[i] + (radio.most[i] - radio.fewest[i]) * swarm.contact[i]
-            swarm.neighbors[i] = int(degree + 0.5)
+            swarm.contact[i] = adapted(swarm.contact[i], contact[i - first], weight)
+            swarm.neighbors[i] = degree_of(swarm.contact[i], radio.fewest[i], radio.most[i])

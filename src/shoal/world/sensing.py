@@ -1,18 +1,36 @@
 """Who detects a target: the paper's disc (Eq. 1), with chances to miss it and to see what is not there."""
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import split, uniform
-from shoal.core.kernel import kernel
 
 _DETECTION = 1 << 21  # purposes that no strategy draws for
 _FALSE_ALARM = _DETECTION + 1
 
 
 @kernel
+def within_reach(dx, dy, reach):
+    """Whether a target dx, dy [m] away is within a sensor's radius plus its own, `reach` [m]: Eq. 1."""
+    return dx * dx + dy * dy <= reach * reach
+
+
+@kernel
+def notices(key, target, detection):
+    """Whether a sensor notices a target within its reach, by its chance; `key` is the agent's of the step."""
+    return uniform(split(key, _DETECTION), target) < detection
+
+
+@kernel
+def imagines(key, false_alarm):
+    """Whether a sensor reports a target that is not there, by its chance; `key` is the agent's of the step."""
+    return uniform(key, _FALSE_ALARM) < false_alarm
+
+
+@kernel
 def sense(swarm, targets, world, step_key):
     """Set on_target (f_i = -1 in the paper) of every agent within its sensor radius plus a target's radius.
 
-    Kwa et al., Heterogeneous Swarms, Eq. 1. Counts the watchers of every target and returns how many agents watch any:
-    false alarms set on_target, but watch nothing.
+    Kwa et al., Heterogeneous Swarms, Eq. 1. Counts the watchers of every target and returns how many agents watch any,
+    which are `engaged`: false alarms set on_target, but watch nothing.
     """
     agents = world.agents
     engaged = 0
@@ -25,17 +43,16 @@ def sense(swarm, targets, world, step_key):
             for i in range(agents):
                 dx = swarm.x[i] - target.x
                 dy = swarm.y[i] - target.y
-                reach = swarm.sensor_radius[i] + target.radius
-                sees = (dx * dx + dy * dy <= reach * reach) & (swarm.alive[i] > 0.0)
+                sees = within_reach(dx, dy, swarm.sensor_radius[i] + target.radius) & (swarm.alive[i] > 0.0)
                 if world.imperfect:
-                    sees &= uniform(split(split(step_key, i), _DETECTION), j) < swarm.detection[i]
+                    sees &= notices(split(step_key, i), j, swarm.detection[i])
                 swarm.on_target[i] |= sees
                 watchers += sees
         targets[j].watchers = watchers
     for i in range(agents):
+        swarm.engaged[i] = swarm.on_target[i]
         engaged += swarm.on_target[i]
     if world.imperfect:
         for i in range(agents):
-            false_alarm = uniform(split(step_key, i), _FALSE_ALARM) < swarm.false_alarm[i]
-            swarm.on_target[i] |= false_alarm & (swarm.alive[i] > 0.0)
+            swarm.on_target[i] |= imagines(split(step_key, i), swarm.false_alarm[i]) & (swarm.alive[i] > 0.0)
     return engaged

@@ -58,7 +58,7 @@ def compare_strategies(
     else:
         print_comparison(found.comparison, metric, found.direction, about)
     if figure:
-        from shoal.viz.files import save_figure
+        from shoal.drawing.files import save_figure
 
         save_figure(found.plot(), figure)
         note(f"figure: {figure}")

@@ -62,7 +62,7 @@ def compare_suite(
     else:
         print_leaderboard(board)
     if figure:
-        from shoal.viz.files import save_figure
+        from shoal.drawing.files import save_figure
 
         save_figure(leaderboard_figure(board), figure)
         note(f"figure: {figure}")

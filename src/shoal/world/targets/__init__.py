@@ -1,7 +1,7 @@
 """How targets move: one file per kind. A new kind is a file, a number in record.py and a line in each function here."""
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import uniform
-from shoal.core.kernel import kernel
 from shoal.world.targets.dive import surface_or_dive
 from shoal.world.targets.drift import drift
 from shoal.world.targets.evasive import flee
@@ -11,6 +11,7 @@ from shoal.world.targets.moves import any_heading
 from shoal.world.targets.record import DRIFT, EVASIVE, LEVY, LINE, TRACK, WALK, WAYPOINT
 from shoal.world.targets.record import KINDS as KINDS
 from shoal.world.targets.record import TARGET as TARGET
+from shoal.world.targets.record import TARGET_STATE as TARGET_STATE
 from shoal.world.targets.record import Tracks as Tracks
 from shoal.world.targets.track import follow_track
 from shoal.world.targets.walk import walk

@@ -1,6 +1,6 @@
 """Targets that surface and dive: nobody can detect one that is down."""
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 
 
 @kernel

@@ -5,8 +5,8 @@ What leaves its box comes back in at the opposite side, as the next one would.
 
 import math
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import normal
-from shoal.core.kernel import kernel
 from shoal.world.targets.moves import heading_of, turn
 
 

@@ -8,8 +8,8 @@ target's is.
 
 import math
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import normal
-from shoal.core.kernel import kernel
 from shoal.world.targets.moves import advance_straight, heading_of, turn
 
 

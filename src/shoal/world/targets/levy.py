@@ -5,8 +5,8 @@ Viswanathan et al., "Optimizing the success of random searches", Nature 401, 199
 
 import math
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import uniform
-from shoal.core.kernel import kernel
 from shoal.world.targets.moves import advance_straight, any_heading
 
 

@@ -1,6 +1,6 @@
 """Straight lines with reflection: angle of incidence = angle of reflection at the edge of the box."""
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 from shoal.world.targets.moves import advance_straight
 
 

@@ -2,8 +2,8 @@
 
 import math
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import uniform
-from shoal.core.kernel import kernel
 
 
 @kernel

@@ -1,6 +1,6 @@
 """A recorded track, followed fix by fix."""
 
-from shoal.core.kernel import kernel
+from shoal.compiler.kernel import kernel
 
 
 @kernel

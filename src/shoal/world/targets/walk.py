@@ -6,8 +6,8 @@ the turn made in a time t is exp(-diffusion t).
 
 import math
 
+from shoal.compiler.kernel import kernel
 from shoal.core.draws import normal
-from shoal.core.kernel import kernel
 from shoal.world.targets.moves import advance_straight, heading_of, turn
 
 

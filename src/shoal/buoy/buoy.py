@@ -1,0 +1,203 @@
+"""A buoy: one agent of a scenario that decides by itself. It opens no socket and no port, and has no clock."""
+
+import math
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+from shoal.buoy.plain import NO_TRUTH, PlainMind
+from shoal.compiler.kernel import compiles, plain
+from shoal.core.errors import MessageError, StrategyError
+from shoal.core.messages import Own, Reading, Report
+from shoal.scenario.briefing import briefing, degrees, fleet_of
+from shoal.scenario.crew import Crew, crew_of
+from shoal.scenario.load import Source, load
+from shoal.scenario.strategy_errors import strategy_errors
+from shoal.world.motion import maneuvered, speed_scale
+from shoal.world.radio import degree_of, first_degree
+
+
+class Decision(NamedTuple):
+    """What a buoy wants, and what it tells the others: velocity vx, vy [m/s] within its limits, and its report."""
+
+    vx: float
+    vy: float
+    report: Report
+
+
+class Buoy:
+    """One agent of a scenario without a simulator: the same decisions, from what it measures and hears.
+
+    Its clock is the number of the step, which the caller counts; its chance is that of the same agent, seed and run in
+    the simulator. It is compiled where numba is installed, and plain Python where it is not.
+
+    Parameters
+    ----------
+    scenario : what the whole swarm is told: a scenario, or what shoal.load makes one of
+    id : which agent it is, 0 to N - 1 in the order of the fleets
+    seed : decides all chance, with the run; default: the scenario's
+    run : number of the replicate
+
+    Attributes
+    ----------
+    briefing : what it is told before it leaves
+    told : names of the fields that reports tell besides place, velocity and whether on target, for Report.from_bytes
+    neighbors : k, to how many neighbors it listens; changes where the scenario lets k adapt
+
+    Raises
+    ------
+    ScenarioError : there is no such agent
+    StrategyError : its strategy is told where targets are, which no buoy can know
+    """
+
+    def __init__(self, scenario: Source, id: int, *, seed: int | None = None, run: int = 0) -> None:
+        scenario = load(scenario)
+        crew = crew_of(scenario)
+        self.id = id
+        self.fleet = fleet_of(scenario, id)
+        strategy = crew.strategies[self.fleet]
+        if strategy.informed:
+            problem = f"strategy {strategy.name!r} is told where targets are, which no buoy can know"
+            raise StrategyError(f"agent {id}", problem, "choose another; `shoal strategies` says which are informed")
+        self.briefing = briefing(scenario, id)
+        self.told = crew.told
+        self.neighbors = degrees(scenario, crew)[self.fleet]
+        self._crew = crew
+        self._make = scenario.fleets[self.fleet]
+        self._time_step = scenario.time_step
+        self._divide = scenario.motion.speed_rule == "divide"
+        self._adaptive = scenario.network.adaptive
+        self._mind = _mind_of(crew, scenario.seed if seed is None else seed, run)
+        self._begun = False
+        if self._adaptive:
+            everybody = scenario.agents - 1
+            bounds = (everybody, everybody) if strategy.hears_all else (self._adaptive.fewest, self._adaptive.most)
+            self._fewest, self._most = bounds
+            self.neighbors, self._contact = _first_degree(self.neighbors, *bounds)
+
+    @property
+    def memory(self) -> dict[str, float]:
+        """What it remembers, by name."""
+        return dict(self._mind.remembered())
+
+    def begin(self, reading: Reading) -> None:
+        """Set up the memory, where the buoy lies before the first step; `decide` and `report` do so if nobody did."""
+        start = reading._replace(vx=0.0, vy=0.0, on_target=False)
+        with strategy_errors(self._crew):
+            self._mind.begin(self._own(start, 0))
+        self._begun = True
+
+    def report(self, reading: Reading, step: int) -> Report:
+        """Return what it tells the others in a step, from what it measures and from what it remembers so far.
+
+        Parameters
+        ----------
+        reading : what its instruments say at the start of the step
+        step : number of the step, from 0
+
+        Raises
+        ------
+        MessageError : the reading holds a number that is not finite
+        """
+        x, y, vx, vy, on_target = reading
+        if not all(map(math.isfinite, (x, y, vx, vy))):
+            problem = f"of agent {self.id} holds a number that is not finite, in step {step}"
+            raise MessageError("reading", problem, "say and decide nothing until the instrument is well")
+        if not self._begun:
+            self.begin(reading)
+        time = step * self._time_step
+        return Report(self.id, float(x), float(y), float(vx), float(vy), bool(on_target), self._mind.told(), time)
+
+    def decide(self, reading: Reading, inbox: Iterable[Report], step: int) -> Decision:
+        """Return the velocity wanted in a step, and the report of that step.
+
+        Of the reports that reached it, it hears the newest of each other agent, and of those the k nearest, ties to
+        the lower id. It remembers what its strategy makes of them: ask once for each step.
+
+        Parameters
+        ----------
+        reading : what its instruments say at the start of the step
+        inbox : reports that reached it, in any order
+        step : number of the step, from 0
+
+        Raises
+        ------
+        MessageError : the reading holds a number that is not finite
+        StrategyError : its strategy cannot be compiled, raises an error, or wants what is not finite
+        """
+        report = self.report(reading, step)
+        me = self._own(reading, step)
+        heard = self._heard(me, inbox)
+        with strategy_errors(self._crew):
+            try:
+                vx, vy = self._mind.decide(me, heard, step)
+            except (ZeroDivisionError, OverflowError):  # compiled code would go on with infinity
+                vx = vy = math.nan
+        if not (math.isfinite(vx) and math.isfinite(vy)):
+            problem = f"strategy {self._crew.name!r} wanted a velocity that is not finite, in step {step}"
+            raise StrategyError(self._crew.source, problem, "guard divisions, roots and logarithms")
+        self._adapt(me, heard)
+        return Decision(*self._limited(me, vx, vy), report)
+
+    def _own(self, reading: Reading, step: int) -> Own:
+        x, y, vx, vy, on_target = reading
+        return Own(
+            self.id,
+            float(x),
+            float(y),
+            float(vx),
+            float(vy),
+            bool(on_target),
+            self._make.max_speed,
+            self._time_step,
+            step * self._time_step,
+            self.fleet,
+            self.briefing,
+            NO_TRUTH,
+        )
+
+    def _heard(self, me: Own, inbox: Iterable[Report]) -> list[Report]:
+        """The newest report of each of the k nearest others, in the order of ids."""
+        newest: dict[int, Report] = {}
+        for report in inbox:
+            if report.id != self.id and (report.id not in newest or report.time >= newest[report.id].time):
+                newest[report.id] = report
+        nearest = sorted(newest.values(), key=lambda other: (_square(me, other), other.id))[: self.neighbors]
+        if self._crew.ranked:
+            nearest = [report._replace(rank=rank) for rank, report in enumerate(nearest)]
+        return sorted(nearest, key=lambda report: report.id)
+
+    def _adapt(self, me: Own, heard: list[Report]) -> None:
+        """Let k follow the contact, where the scenario says so."""
+        if self._adaptive:
+            contact = 1 if me.on_target or any(report.on_target for report in heard) else 0
+            self._contact += min(1.0, self._time_step / self._adaptive.patience) * (contact - self._contact)
+            self.neighbors = _degree_of(self._contact, self._fewest, self._most)
+
+    def _limited(self, me: Own, vx: float, vy: float) -> tuple[float, float]:
+        """A velocity within what the buoy can do."""
+        make = self._make
+        if make.max_acceleration or make.max_turn_rate:
+            turn = math.radians(make.max_turn_rate or math.inf) * self._time_step
+            change = (make.max_acceleration or math.inf) * self._time_step
+            vx, vy = _maneuvered(me.vx, me.vy, vx, vy, turn, change)
+        scale = _speed_scale(vx, vy, make.max_speed, self._divide)
+        return vx * scale, vy * scale
+
+
+def _square(me: Own, other: Report) -> float:
+    dx = me.x - other.x
+    dy = me.y - other.y
+    return dx * dx + dy * dy
+
+
+def _mind_of(crew: Crew, seed: int, run: int) -> Any:
+    if not compiles():
+        return PlainMind(crew, seed, run)
+    from shoal.buoy.compiled import CompiledMind
+
+    return CompiledMind(crew, seed, run)
+
+
+# Of the world's formulas, the plain functions: one number takes longer to hand to compiled code than to work out.
+_first_degree, _degree_of = plain(first_degree), plain(degree_of)
+_maneuvered, _speed_scale = plain(maneuvered), plain(speed_scale)

@@ -1,0 +1,74 @@
+"""A strategy's mind in plain Python: for computers without numba, and to read."""
+
+import math
+from functools import cache
+from typing import Any
+
+from shoal.core.draws import START_STEP, split
+from shoal.core.messages import Briefing, Heard, Own, Report, Truth
+from shoal.core.wire import told_class
+from shoal.scenario.crew import Crew
+from shoal.strategies import contract
+
+NO_BRIEFING = Briefing(0, 0.0, 0.0, 0.0, 0.0, 0.0)
+NO_TRUTH = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+class PlainMind:
+    """What one agent remembers, and how it decides."""
+
+    def __init__(self, crew: Crew, seed: int, run: int) -> None:
+        self.crew = crew
+        self.memory = _record(crew.memory)()
+        self._told = told_class(crew.told)
+        self._key = split(split(seed, 0), run)
+
+    def remembered(self) -> dict[str, float]:
+        """Every field of the memory by name."""
+        return {name: getattr(self.memory, name) for name in self.crew.memory}
+
+    def told(self) -> Any:
+        """What reports tell of the memory."""
+        return self._told(*(getattr(self.memory, name) for name in self.crew.told))
+
+    def begin(self, me: Own) -> None:
+        """Set the memory up."""
+        contract.begin(me, self.memory, self.crew.params, split(split(self._key, START_STEP), me.id))
+
+    def decide(self, me: Own, inbox: list[Report], step: int) -> tuple[float, float]:
+        """The velocity wanted in a step [m/s]; `inbox` has the reports heard in the order of ids."""
+        params = self.crew.params
+        listener = me._replace(briefing=NO_BRIEFING, truth=NO_TRUTH)  # pairs know no more, in the engine too
+        sums, leader, lowest = [0.0] * self.crew.sums, None, math.inf
+        sums_up = contract.has_influence(params)
+        for other in inbox:
+            if sums_up:
+                for number, value in enumerate(contract.influence(listener, other, params)):
+                    sums[number] += value
+            if contract.leads(other, params):
+                priority = contract.priority(listener, other, params)
+                if priority < lowest:
+                    leader, lowest = other, priority
+        found = leader is not None
+        said: Any = leader or me
+        told = leader.told if leader else self.told()
+        heard = Heard(found, said.x, said.y, said.vx, said.vy, said.on_target, 0.0, 0.0, len(inbox), told, tuple(sums))
+        vx, vy = contract.decide(me, heard, self.memory, params, split(split(self._key, step), me.id))
+        return float(vx), float(vy)
+
+
+@cache
+def _record(fields: tuple[str, ...]) -> type[Any]:
+    """A class with these fields and no others, each a double, as the engine's records have them."""
+
+    class Memory:
+        __slots__ = fields
+
+        def __init__(self) -> None:
+            for name in fields:
+                setattr(self, name, 0.0)
+
+        def __setattr__(self, name: str, value: float) -> None:
+            object.__setattr__(self, name, float(value))
+
+    return Memory

@@ -1,0 +1,1 @@
+"""Numba behind one door: kernels, and the phases that are compiled once for all strategies."""

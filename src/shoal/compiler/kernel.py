@@ -1,0 +1,149 @@
+"""@kernel: our only spelling of numba.njit; the flags and the cache are chosen here, once.
+
+Without numba, on the small computer of a buoy, kernels are the plain functions that they are written as.
+
+Numba's cache does not notice an edited function in another file and would return old numbers silently, so the
+cache lives in a folder named by a hash of all our kernel sources (docs/decisions/0002-kernel-cache.md).
+
+A trap: in a kernel that calls an overload with inline="always" (`part`, `enter`, all of strategies/contract.py),
+numba removes writes into arrays that it does not see to be an argument's. It sees one dot, `swarm.x[i] = 1.0`, but
+neither two, `parts.swarm.x[i] = 1.0`, nor what `part` returned: such a kernel hands the swarm to one that writes.
+"""
+
+import atexit
+import hashlib
+import os
+import shutil
+import tempfile
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+from shoal.compiler.private import make_private
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+try:
+    import numba
+    from numba import extending
+    from numba.core import config
+    from numba.core.errors import NumbaError as NumbaError
+    from numba.core.errors import NumbaExperimentalFeatureWarning
+    from numba.core.errors import TypingError as TypingError
+
+    from shoal.compiler.inner import FLAGS, INNER_FLAGS, Inner
+
+    # Fleets with strategies of their own share memory records, which numba passes by their first fields and warns of.
+    warnings.filterwarnings("ignore", message="Record", category=NumbaExperimentalFeatureWarning)
+except ModuleNotFoundError as missing:
+    if missing.name != "numba":
+        raise
+    numba = config = None  # type: ignore[assignment]
+
+    class NumbaError(Exception):  # type: ignore[no-redef]
+        """What nobody raises without numba."""
+
+    TypingError = NumbaError  # type: ignore[misc, assignment]
+
+_config: Any = config  # its settings come from the environment at run time
+_COMPILED_FOLDERS = ("compiler", "core", "world", "strategies", "metrics", "engine")
+
+
+def kernel(function: Function) -> Function:
+    """Compile a function that other kernels call; it is compiled into them and not cached by itself."""
+    if hasattr(function, "py_func") or not compiles():
+        return function  # compiled already, or never
+    return cast(Function, Inner(function, targetoptions={"nopython": True, **INNER_FLAGS}))
+
+
+def entry_kernel(function: Function) -> Function:
+    """Compile a function that Python calls, and keep the machine code on disk for the next process."""
+    if numba is None:
+        return function
+    with kernel_cache():
+        return cast(Function, numba.njit(function, cache=True, **FLAGS))
+
+
+@contextmanager
+def kernel_cache() -> Iterator[None]:
+    """Let numba keep what is decorated inside in our cache folder."""
+    outside = _config.CACHE_DIR
+    _config.CACHE_DIR = str(cache_folder())
+    try:
+        yield
+    finally:
+        _config.CACHE_DIR = outside
+
+
+def compiles() -> bool:
+    """Whether kernels are compiled: not without numba, and not under NUMBA_DISABLE_JIT=1."""
+    return numba is not None and not _config.DISABLE_JIT
+
+
+def plain(function: Function) -> Function:
+    """The function that a kernel is written as."""
+    return cast(Function, getattr(function, "py_func", function))
+
+
+def overload(function: Callable[..., Any], **options: Any) -> Callable[[Function], Function]:
+    """Say what a function is in kernels: numba's decorator of the same name, if there is a compiler."""
+    if numba is None:
+        return lambda implementation: implementation
+    decorator: Any = extending.overload(function, **options)
+    return cast(Callable[[Function], Function], decorator)
+
+
+def uncached(entry: Function) -> Function:
+    """Return a twin of an entry kernel that never touches the cache: for strategies whose source we do not hash."""
+    if not compiles():
+        return entry
+    return cast(Function, numba.njit(entry.py_func, **FLAGS))  # type: ignore[attr-defined]
+
+
+@cache
+def cache_folder() -> Path:
+    """Folder of the compiled kernels of exactly these sources; $SHOAL_CACHE_DIR moves it.
+
+    One that somebody else could have written is never read: what is in it would run. This process then has a folder
+    of its own, and `why_uncached` says why.
+    """
+    folder = _shared_folder()
+    try:
+        make_private(folder)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError as error:
+        _refused.append(f"{folder} cannot be used: {error.strerror}" if error.strerror else str(error))
+    own = Path(tempfile.mkdtemp(prefix="shoal-kernels-"))  # 0700
+    atexit.register(shutil.rmtree, own, ignore_errors=True)
+    return own
+
+
+def why_uncached() -> str | None:
+    """Say why compiled kernels are not kept for the next process; None if they are."""
+    cache_folder()
+    return _refused[0] if _refused else None
+
+
+_refused: list[str] = []
+
+
+def _shared_folder() -> Path:
+    base = os.environ.get("SHOAL_CACHE_DIR") or os.path.join(
+        os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache"), "shoal"
+    )
+    return Path(base).absolute() / f"kernels-{sources_hash()}"
+
+
+@cache
+def sources_hash() -> str:
+    """First 16 hex digits of a hash over every kernel source and the compiler's version."""
+    digest = hashlib.sha256(numba.__version__.encode())
+    root = Path(__file__).parent.parent
+    for name in _COMPILED_FOLDERS:
+        for source in sorted((root / name).rglob("*.py")):
+            digest.update(source.read_bytes())
+    return digest.hexdigest()[:16]

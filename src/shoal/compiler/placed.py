@@ -1,0 +1,167 @@
+"""A stage in memory: a NamedTuple of everything that phases work on, where a number says where it is.
+
+    Placed.room, one block of bytes                 Placed.stage, Python's NamedTuple
+
+    address -> | world  | agents: 50                world.agents
+               |        | time_step: 0.1            world.time_step
+               | swarm  | x: data, shape, ... --->  swarm.x, NumPy's array and the numbers in it
+               |        | y: data, shape, ... --->  swarm.y
+               | ...    |
+
+Who owns what, and for how long:
+
+- The block is the Placed's, and so are the arrays that it points at, through `Placed.stage`. Both live as long as the
+  Placed does: whoever hands the address to a kernel keeps the Placed until the kernel is back.
+- Arrays are shared: what a kernel writes into them, Python sees, and the other way round.
+- Numbers in the block are copies: who changes one (World, Radio) places the stage anew.
+- Kernels own nothing. `part` reads arrays without counting references, which would cost more than a step; so a kernel
+  must neither keep such an array nor return it to Python.
+
+All stages of a process, and of a cache of compiled code, have one type: that of the model which `all_like` names. It is
+made of compiled sources alone, whose hash names the cache. A stage of another type is refused before it is written.
+"""
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+from llvmlite import ir
+from numba import typeof, types
+from numba.core import cgutils
+from numba.extending import intrinsic, overload
+
+from shoal.compiler.kernel import compiles, entry_kernel
+
+_MODEL: list[Callable[[], Any]] = []  # makes a stage, however small, of the type that all have
+
+
+def all_like(model: Callable[[], Any]) -> Callable[[], Any]:
+    """Decorate the function that makes a model of all stages."""
+    _MODEL[:] = [model]
+    return model
+
+
+class Placed:
+    """A stage where phases find it.
+
+    Attributes
+    ----------
+    stage : what was placed
+    address : where, for kernels, as long as this object lives; the stage itself without a compiler
+
+    Raises
+    ------
+    TypeError : the stage is of another type than the model
+    """
+
+    def __init__(self, stage: Any) -> None:
+        self.stage = stage
+        self.address = stage
+        if compiles():
+            _refuse_other_types(stage)
+            self.room = np.empty(_size(), np.uint8)
+            self.address = self.room.ctypes.data
+            _put(stage, self.address)
+
+
+def part(stage: Any, field: int) -> Any:
+    """One field of the stage at an address, by its index, in kernels."""
+    return stage[field]
+
+
+@cache
+def _type() -> Any:
+    return typeof(_MODEL[0]())
+
+
+@cache
+def _leaves_of_model() -> dict[str, Any]:
+    return dict(_leaves(_MODEL[0](), "stage"))
+
+
+def _refuse_other_types(stage: Any) -> None:
+    """Compare with the model, leaf by leaf."""
+    wanted = _leaves_of_model()
+    given = dict(_leaves(stage, "stage"))
+    for name in sorted(wanted.keys() | given.keys()):
+        if wanted.get(name) != given.get(name):
+            raise TypeError(f"{name} is {given.get(name, 'missing')}, where all have {wanted.get(name, 'nothing')}")
+
+
+def _leaves(value: Any, name: str) -> Any:
+    """Name and kind of every number and array in nested NamedTuples: what numba makes different types of."""
+    if isinstance(value, np.ndarray):
+        layout = "C" if value.flags.c_contiguous else "F" if value.flags.f_contiguous else "A"
+        flags = "" if value.flags.aligned and value.flags.writeable else " (read-only or unaligned)"
+        yield name, f"{value.dtype}[{', '.join(':' * value.ndim)}] in {layout} order{flags}"
+    elif isinstance(value, tuple):
+        for field, each in zip(value._fields, value, strict=True):  # type: ignore[attr-defined]
+            yield from _leaves(each, f"{name}.{field}")
+    else:
+        yield name, np.asarray(value).dtype.name
+
+
+@entry_kernel
+def _put(stage, address):
+    _store(stage, address)
+
+
+@entry_kernel
+def _size():
+    return _bytes()
+
+
+_TUPLE: Any = types.BaseTuple  # NamedTuples, too
+_as_kernel: Any = intrinsic
+_as_literal_kernel: Any = intrinsic(prefer_literal=True)
+
+
+@_as_kernel
+def _bytes(context):
+    def build(context, builder, signature, arguments):
+        return ir.Constant(ir.IntType(64), context.get_abi_sizeof(context.get_data_type(_type())))
+
+    return types.int64(), build
+
+
+@_as_kernel
+def _store(context, stage, address):
+    def build(context, builder, signature, arguments):
+        kind = context.get_data_type(stage)
+        context.pack_value(builder, stage, arguments[0], builder.inttoptr(arguments[1], kind.as_pointer()))
+        return context.get_dummy_value()
+
+    return types.none(stage, types.intp), build
+
+
+@_as_literal_kernel
+def _load(context, stage, field):
+    place, whole = field.literal_value, _type()
+
+    def build(context, builder, signature, arguments):
+        pointer = builder.inttoptr(arguments[0], context.get_data_type(whole).as_pointer())
+        return _unowned(context, builder, whole[place], cgutils.gep_inbounds(builder, pointer, 0, place))
+
+    return whole[place](types.int64, field), build
+
+
+def _unowned(context: Any, builder: Any, kind: Any, pointer: Any) -> Any:
+    """The value at a pointer, with arrays that nobody counts references to: their owner is set to nobody (null)."""
+    if isinstance(kind, _TUPLE):
+        parts = [
+            _unowned(context, builder, each, cgutils.gep_inbounds(builder, pointer, 0, place))
+            for place, each in enumerate(kind)
+        ]
+        return context.make_tuple(builder, kind, parts)
+    value = context.unpack_value(builder, kind, pointer)
+    if isinstance(kind, types.Array):
+        array = context.make_array(kind)(context, builder, value)
+        array.meminfo = cgutils.get_null_value(array.meminfo.type)
+        return array._getvalue()
+    return value
+
+
+@overload(part, inline="always", prefer_literal=True)
+def _part_kernel(stage, field):
+    return lambda stage, field: _load(stage, field)

@@ -1,0 +1,104 @@
+"""A report as bytes: what goes over the air, and how it is read back.
+
+Little-endian, without padding: version (1 byte), id (4), time (8), x, y, vx, vy (8 each), on_target (1), one number (8)
+for each field of `told`, and the CRC-32 of all that (4): 50 bytes, and 8 for each field told.
+"""
+
+import math
+import struct
+import zlib
+from collections import namedtuple
+from functools import cache
+from typing import Any
+
+from shoal.core.errors import MessageError
+
+_VERSION = 1
+_HEAD = struct.Struct("<BIdddddB")
+_CHECK = struct.Struct("<I")
+
+
+def wire_bytes(told: int) -> int:
+    """Size of a report that tells so many numbers [B]."""
+    return _HEAD.size + 8 * told + _CHECK.size
+
+
+def pack(report: Any) -> bytes:
+    """A report as bytes; see `unpack`.
+
+    Raises
+    ------
+    MessageError : a number is not finite, or the id is not one of 32 bits
+    """
+    told = tuple(report.told)
+    try:
+        head = _HEAD.pack(
+            _VERSION, report.id, report.time, report.x, report.y, report.vx, report.vy, bool(report.on_target)
+        )
+        body = head + struct.pack(f"<{len(told)}d", *told)
+    except struct.error as error:
+        raise MessageError("report", f"cannot be written: {error}", "give an id of 32 bits, and numbers") from error
+    _check_finite(report, told)
+    return body + _CHECK.pack(zlib.crc32(body))
+
+
+def unpack(data: Any, told: tuple[str, ...], report: type[Any]) -> Any:
+    """The report in some bytes.
+
+    Parameters
+    ----------
+    data : bytes, as `pack` writes them
+    told : names of the fields that the swarm's strategies tell, in their order
+    report : the class to make
+
+    Raises
+    ------
+    MessageError : too few or too many bytes, of another version, or damaged
+    """
+    try:
+        data = bytes(memoryview(data))
+    except TypeError:
+        raise MessageError("report", f"is {type(data).__name__}, not bytes", "give what to_bytes returned") from None
+    size = wire_bytes(len(told))
+    if len(data) != size:
+        fields = f" with {', '.join(told)}" if told else ""
+        raise MessageError("report", f"has {len(data)} bytes, but one{fields} has {size}", "drop it")
+    body = data[: -_CHECK.size]
+    if _CHECK.unpack(data[-_CHECK.size :])[0] != zlib.crc32(body):
+        raise MessageError("report", "is damaged: its checksum does not match", "drop it; the next comes in a step")
+    version, number, time, x, y, vx, vy, on_target = _HEAD.unpack_from(body)
+    if version != _VERSION:
+        problem = f"is of version {version} of the format, this is version {_VERSION}"
+        raise MessageError("report", problem, "give all buoys the same version of Shoal")
+    numbers = told_class(told)(*struct.unpack_from(f"<{len(told)}d", body, _HEAD.size))
+    read = report(number, x, y, vx, vy, bool(on_target), numbers, time)
+    _check_finite(read, numbers)
+    return read
+
+
+def wire_dtype(told: tuple[str, ...] = ()) -> Any:
+    """The same layout as a NumPy dtype, to read a log of many reports at once: np.frombuffer(log, wire_dtype())."""
+    import numpy as np
+
+    numbers = [(name, "<f8") for name in told]
+    return np.dtype(
+        [
+            ("version", "u1"),
+            ("id", "<u4"),
+            *((name, "<f8") for name in ("time", "x", "y", "vx", "vy")),
+            ("on_target", "?"),
+            *([("told", numbers)] if told else []),
+            ("checksum", "<u4"),
+        ]
+    )
+
+
+@cache
+def told_class(told: tuple[str, ...]) -> type[Any]:
+    """NamedTuple of what is told."""
+    return namedtuple("Told", told)
+
+
+def _check_finite(report: Any, told: tuple[float, ...]) -> None:
+    if not all(map(math.isfinite, (report.time, report.x, report.y, report.vx, report.vy, *told))):
+        raise MessageError("report", f"of agent {report.id} holds a number that is not finite", "drop it")

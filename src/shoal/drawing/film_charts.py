@@ -1,0 +1,110 @@
+"""Two charts beside a film's arena: who heads where now, and how many are on target over time."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.drawing.histogram import PHI_EDGES, label_phi
+from shoal.drawing.stretch import Stretch
+from shoal.drawing.style import GRAY, TARGET, fleet_color
+from shoal.drawing.words import count
+from shoal.metrics.heading_bearing import CENTERS, which_stationary
+from shoal.record.record import Record
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_LEFT, _RIGHT = 0.72, 0.3  # [inch] room for a y label, page margin
+_TOP, _BOTTOM, _BETWEEN = 0.88, 0.66, 1.05
+
+
+class Charts:
+    """The charts of a stretch, right of `left` [inch] on a figure.
+
+    engaged : (K,) how many are on target, NaN where no target is
+    """
+
+    def __init__(
+        self, figure: "Figure", record: Record, run: int, stretch: Stretch,
+        engaged: npt.NDArray[np.float64], left: float,
+    ) -> None:  # fmt: skip
+        page_width, page_height = figure.get_size_inches()
+        tall = (page_height - _TOP - _BOTTOM - _BETWEEN) / 2
+        left += _LEFT
+        wide = page_width - left - _RIGHT
+
+        def axes(bottom: float) -> Any:
+            return figure.add_axes((left / page_width, bottom / page_height, wide / page_width, tall / page_height))
+
+        self._step = np.asarray(record.trajectories[run].step)[stretch.frames]
+        self._engaged = engaged
+        self._histograms = phi_of_frames(record, run, stretch.frames)  # (K, F, 11)
+        self._bars = self._draw_phi(axes(_BOTTOM + tall + _BETWEEN))
+        self._line, self._dot = self._draw_engaged(axes(_BOTTOM))
+        self.artists = [*(bar for bars in self._bars for bar in bars), self._line, self._dot]
+
+    def show(self, number: int) -> None:
+        """Move to a frame of the stretch."""
+        base = np.zeros(CENTERS.size)
+        for bars, heights in zip(self._bars, self._histograms[number], strict=True):
+            for bar, bottom, height in zip(bars, base, heights, strict=True):
+                bar.set_y(bottom)
+                bar.set_height(height)
+            base = base + heights
+        self._line.set_data(self._step[: number + 1], self._engaged[: number + 1])
+        self._dot.set_data([self._step[number]], [self._engaged[number]])
+
+    def _draw_phi(self, axes: Any) -> list[Any]:
+        label_phi(axes)
+        axes.set_title("Heading relative to target")
+        axes.set_ylabel("agents")
+        axes.set_ylim(0.0, max(1.0, 1.05 * float(self._histograms.sum(axis=1).max(initial=0.0))))
+        return [
+            axes.bar(
+                PHI_EDGES[:-1], np.zeros(CENTERS.size), np.diff(PHI_EDGES), align="edge", color=fleet_color(fleet),
+                edgecolor="white", linewidth=0.6,
+            )
+            for fleet in range(self._histograms.shape[1])
+        ]  # fmt: skip
+
+    def _draw_engaged(self, axes: Any) -> tuple[Any, Any]:
+        from matplotlib.ticker import FuncFormatter, MaxNLocator
+
+        axes.set_title("Buoys on target")
+        axes.set_xlabel("step")
+        axes.set_xlim(self._step[0], max(self._step[-1], self._step[0] + 1))
+        axes.set_ylim(0.0, max(1.0, float(np.nanmax(np.append(self._engaged, 0.0)))) * 1.08)
+        axes.xaxis.set_major_locator(MaxNLocator(3, integer=True))
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: count(round(value))))
+        axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
+        axes.grid(axis="y")
+        (line,) = axes.plot([], [], color=TARGET, linewidth=1.3, drawstyle="steps-post")
+        (dot,) = axes.plot([], [], "o", color=TARGET, markeredgecolor=GRAY, markersize=4.5, clip_on=False)
+        return line, dot
+
+
+def phi_of_frames(record: Record, run: int, chosen: npt.NDArray[np.intp]) -> npt.NDArray[np.int64]:
+    """Agents of each fleet in each bin of phi at some frames, (K, F, 11); none where no target is there.
+
+    As `metrics.heading_bearing` has it, but of the state at the start of a step: velocities of the step before.
+    """
+    frames, facts = record.trajectories[run], record.facts
+    fleets = np.repeat(np.arange(len(facts.counts)), facts.counts)
+    top = np.repeat(facts.max_speeds, facts.counts)
+    histograms = np.zeros((chosen.size, len(facts.counts), CENTERS.size), np.int64)
+    for row, at in enumerate(chosen.tolist()):
+        there = np.flatnonzero(frames.target_present[at])
+        if not there.size:
+            continue
+        dx = frames.target_x[at][there, None] - frames.x[at]
+        dy = frames.target_y[at][there, None] - frames.y[at]
+        nearest = np.hypot(dx, dy).argmin(axis=0), np.arange(top.size)
+        dx, dy, vx, vy = dx[nearest], dy[nearest], frames.vx[at], frames.vy[at]
+        length = np.hypot(dx, dy) * np.hypot(vx, vy)
+        moves = ~which_stationary(vx, vy, top) & (length > 0)
+        phi = np.divide(dx * vx + dy * vy, length, out=np.zeros(top.size), where=moves)
+        bins = np.clip((phi + 1.0) * 5.0 + 0.5, 0, CENTERS.size - 1).astype(int)
+        alive = np.asarray(frames.alive[at])
+        np.add.at(histograms[row], (fleets[alive], bins[alive]), 1)
+    return histograms

@@ -1,0 +1,67 @@
+"""Histogram of phi: how many buoys move away from the target, stay, or move toward it."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.drawing.legend import headroom, short_name
+from shoal.drawing.style import GRAY, fleet_color
+from shoal.metrics.heading_bearing import CENTERS
+from shoal.record.record import Record
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+PHI_EDGES = np.concatenate([[-1.0], (CENTERS[:-1] + CENTERS[1:]) / 2, [1.0]])  # of the 11 bins
+
+
+def draw_phi_histogram(axes: "Axes", record: Record) -> None:
+    """Draw mean agents per step over phi, fleets stacked; bins have their true widths, the outer two half of the rest.
+
+    Kwa et al., Heterogeneous Swarms, Eq. 8. Bars of all fleets sum to N.
+    """
+    from matplotlib.ticker import MaxNLocator
+
+    axes.set_title("Heading relative to the target")
+    axes.set_ylabel("mean agents per step")
+    label_phi(axes)
+    if not all(tally.present.any() for tally in record.tallies):
+        axes.set_yticks([])
+        axes.text(0.5, 0.5, "no target was ever there", transform=axes.transAxes, ha="center", color=GRAY)
+        return
+    histogram = record.phi_histogram()  # (F, 11)
+    names = [short_name(name) for name in record.facts.fleets]
+    base = draw_phi_bars(axes, histogram, names)
+    axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
+    axes.set_ylim(0.0, base.max())
+    headroom(axes, names if len(names) > 1 else [])
+
+
+def draw_phi_bars(
+    axes: "Axes", histogram: npt.ArrayLike, labels: Sequence[str], fleets: Sequence[int] | None = None
+) -> npt.NDArray[np.float64]:
+    """Draw the bars of each fleet, (F, 11), on those of the one before; return where the topmost end (11,).
+
+    `fleets` are the numbers that give the colors, default 0, 1, ...
+    """
+    base: npt.NDArray[np.float64] = np.zeros(CENTERS.size)
+    rows = np.atleast_2d(np.asarray(histogram, float))
+    for fleet, heights, label in zip(fleets or range(len(rows)), rows, labels, strict=True):
+        axes.bar(
+            PHI_EDGES[:-1], heights, np.diff(PHI_EDGES), base, align="edge", color=fleet_color(fleet),
+            edgecolor="white", linewidth=0.6, label=label,
+        )  # fmt: skip
+        base = base + heights
+    return base
+
+
+def label_phi(axes: "Axes", zero: str = "stationary\nor across") -> None:
+    """Label a horizontal axis of phi."""
+    axes.set_xlabel("heading\u2013bearing correlation φ")
+    axes.set_xlim(-1.02, 1.02)
+    axes.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
+    axes.set_xticklabels(["\u22121\naway", "\u22120.5", f"0\n{zero}", "0.5", "1\ntoward"])
+    axes.grid(axis="y")

@@ -1,0 +1,104 @@
+"""Scene: the arena and all in it, drawn once; `show` moves it to another frame."""
+
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+import numpy as np
+
+from shoal.drawing.agents import AgentMarks
+from shoal.drawing.arena import PAD, draw_arena, draw_scale_bar, in_kilometers
+from shoal.drawing.discs import Halos, SensorDiscs
+from shoal.drawing.links import Links
+from shoal.drawing.targets import TargetMarks
+from shoal.drawing.trails import AgentTrails, TargetTrail, draw_whole_path, target_points
+from shoal.metrics.summary import Facts
+from shoal.record.record import Record
+from shoal.record.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+REACH = 8.0  # arena units that the fastest buoy covers in the default trail
+_TRAILED = 1000  # more buoys than this draw no trails
+
+
+class Parts(NamedTuple):
+    """What a scene shows besides buoys and targets."""
+
+    links: bool = False  # a line to each buoy's k nearest others
+    trails: bool = True
+    halos: bool = False  # discs of radius a_R
+    sensors: bool = False  # circles as wide as sensors reach
+
+
+class Actor(Protocol):
+    """What moves from frame to frame."""
+
+    artists: Any  # of matplotlib
+
+    def show(self, frames: Trajectory, at: int) -> None:
+        """Move to a frame."""
+
+
+class Scene:
+    """The arena of one run in axes of its own.
+
+    Parameters
+    ----------
+    trail : steps of the targets' trails (the buoys' are a third of it); default: what the fastest buoy needs for 8
+        arena units, each a twentieth of the longer side
+    stride : steps between two frames that a trail may join
+    pad : room around the arena, as a share of the longer side
+
+    Raises
+    ------
+    RecordError : a part that this run has nothing to show of
+    """
+
+    def __init__(
+        self, axes: "Axes", record: Record, run: int, parts: Parts, trail: int | None = None, stride: int = 1,
+        pad: float = PAD,
+    ) -> None:  # fmt: skip
+        self.frames = record.trajectories[run]
+        targets = record.scenario["targets"]
+        steps = trail_steps(record.facts) if trail is None else trail
+        draw_arena(axes, record.scenario["area"], pad)
+        self.actors: list[Actor] = []
+        for number, target in enumerate(targets):
+            if target["kind"] == "track":
+                draw_whole_path(axes, self.frames, number, target["radius"])
+            elif parts.trails:
+                self.actors.append(TargetTrail(axes, record, number, steps, stride))
+            self.actors.append(TargetMarks(axes, record, number))
+        if parts.trails and steps >= 3 and record.facts.agents <= _TRAILED:
+            self.actors.append(AgentTrails(axes, record, steps // 3, stride))
+        if parts.links:
+            self.actors.append(Links(axes, record))
+        if parts.halos:
+            self.actors.append(Halos(axes, record, run))
+        if parts.sensors:
+            self.actors.append(SensorDiscs(axes, record, run))
+        self.actors.append(AgentMarks(axes, record))
+        self._tracks = [number for number, target in enumerate(targets) if target["kind"] == "track"]
+        self._needs_scale = in_kilometers(record.scenario["area"]) or bool(self._tracks)
+        self._axes = axes
+
+    def show(self, at: int) -> None:
+        """Move everything to a frame."""
+        for actor in self.actors:
+            actor.show(self.frames, at)
+
+    def scale(self, always: bool = False) -> None:
+        """Draw a scale bar where the axes are in km, or where a recorded track is; out of the track's way."""
+        if self._needs_scale or always:
+            paths = [target_points(self.frames, slice(None), number) for number in self._tracks]
+            draw_scale_bar(self._axes, np.concatenate([np.empty((0, 2)), *paths]))
+
+    @property
+    def artists(self) -> list[Any]:
+        """All that moves, from the lowest to the highest."""
+        return sorted((each for actor in self.actors for each in actor.artists), key=lambda artist: artist.get_zorder())
+
+
+def trail_steps(facts: Facts) -> int:
+    """Steps of a target's trail if nobody says otherwise."""
+    return round(REACH * facts.unit / (max(facts.max_speeds) * facts.time_step))

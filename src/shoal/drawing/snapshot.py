@@ -1,0 +1,85 @@
+"""Snapshot: the arena at one moment, seen from above."""
+
+from typing import TYPE_CHECKING
+
+from shoal.core.errors import RecordError
+from shoal.drawing.legend import draw_legend
+from shoal.drawing.scene import Parts, Scene
+from shoal.drawing.words import count, time_text
+from shoal.record.record import Record
+from shoal.record.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+POINTS = 72.0  # to the inch
+
+
+def draw_snapshot(
+    axes: "Axes",
+    record: Record,
+    run: int = 0,
+    frame: int = -1,
+    links: bool = False,
+    trail: int | None = None,
+    halos: bool = False,
+    sensors: bool = False,
+) -> None:
+    """Draw buoys and targets of one frame; buoys on target have a dark rim, faster ones are bigger.
+
+    Parameters
+    ----------
+    run : number of a run that kept a trajectory
+    frame : index into its frames, from the end if negative
+    links : draw a line to the k nearest others of each buoy
+    trail : steps of the targets' trails (the buoys' are a third of it), 0 for none; as far as consecutive steps were
+        kept. Default: what the fastest buoy needs for 8 arena units, each a twentieth of the longer side
+    halos, sensors : draw discs of radius a_R, circles as wide as sensors reach
+
+    Raises
+    ------
+    RecordError : no trajectory of this run, no such frame, or no a_R or sensor to show
+    """
+    frames = frames_of(record, run)
+    last = _index(frames, frame)
+    scene = Scene(axes, record, run, Parts(links, trail != 0, halos, sensors), trail)
+    scene.show(last)
+    scene.scale()
+    height = draw_legend(axes, record, halos=halos, sensors=sensors)
+    axes.set_title(_moment(record, frames, run, last), pad=7.0 + POINTS * height)
+
+
+def frames_of(record: Record, run: int) -> Trajectory:
+    """The frames that a run kept.
+
+    Raises
+    ------
+    RecordError : it kept none
+    """
+    if run not in record.trajectories:
+        kept = ", ".join(str(each) for each in sorted(record.trajectories)) or "none"
+        raise RecordError(
+            f"run {run}", f"kept no trajectory; runs that did: {kept}", "simulate with `every`, or draw another run"
+        )
+    return record.trajectories[run]
+
+
+def _index(frames: Trajectory, frame: int) -> int:
+    size = frames.step.size
+    if not -size <= frame < size:
+        raise RecordError(f"frame {frame}", f"is not one of the {size} frames kept", f"choose 0 to {size - 1}, or -1")
+    return frame % size
+
+
+def _moment(record: Record, frames: Trajectory, run: int, last: int) -> str:
+    step = int(frames.step[last])
+    which = f"Run {run}, step" if len(record.tallies) > 1 else "Step"
+    return f"{which} {count(step)} ({time_text(step * record.facts.time_step)}): {state_text(frames, last)}"
+
+
+def state_text(frames: Trajectory, at: int) -> str:
+    """Who is there at a frame: 2 on target; or target absent; and how many of the buoys, if not all."""
+    on_target = int(frames.on_target[at].sum())
+    there, agents = int(frames.alive[at].sum()), frames.alive.shape[1]
+    state = f"{on_target} on target" if frames.target_present[at].any() else "target absent"
+    return state if there == agents else f"{state}, {there} of {agents} there"

@@ -1,0 +1,154 @@
+"""What the engine works on, built from a scenario: world, swarm, radio, losses, targets and their recorded tracks."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from shoal.core.agents import new_swarm
+from shoal.scenario.briefing import degrees, shares
+from shoal.scenario.crew import Crew
+from shoal.scenario.on_track import open_track
+from shoal.scenario.schema import Scenario
+from shoal.scenario.targets import (
+    DriftTarget,
+    EvasiveTarget,
+    MovingTarget,
+    StillTarget,
+    TrackTarget,
+    WalkTarget,
+    WaypointTarget,
+)
+from shoal.tracks.track import Track
+from shoal.world.arena import World
+from shoal.world.radio import new_radio
+from shoal.world.targets import KINDS, TARGET, Tracks
+
+
+def build_world(scenario: Scenario) -> World:
+    """What nobody controls."""
+    area, fleets = scenario.area, scenario.fleets
+    return World(
+        agents=scenario.agents,
+        fleets=len(scenario.fleets),
+        time_step=scenario.time_step,
+        half_x=area.width / 2,
+        half_y=area.height / 2,
+        clamp_x=area.width / 2 - area.agent_margin,
+        clamp_y=area.height / 2 - area.agent_margin,
+        sequential=scenario.motion.update_order == "sequential",
+        divide=scenario.motion.speed_rule == "divide",
+        inertial=any(fleet.max_acceleration or fleet.max_turn_rate for fleet in fleets),
+        imperfect=any(fleet.detection_probability < 1 or fleet.false_alarm_probability > 0 for fleet in fleets),
+        mortal=_is_mortal(scenario),
+        target_radius=min(target.radius for target in scenario.targets),
+    )
+
+
+def _is_mortal(scenario: Scenario) -> bool:
+    return bool(scenario.losses or scenario.joins or any(fleet.mean_lifetime for fleet in scenario.fleets))
+
+
+def build_swarm(scenario: Scenario, crew: Crew) -> Any:
+    """Agents in the order of the fleets, nowhere yet; those who join later are the last of their fleet."""
+    agents, fleets, counts = scenario.agents, scenario.fleets, scenario.counts
+    swarm = new_swarm(counts, crew.memory, crew.told)
+
+    def fill(array: Any, values: list[Any]) -> None:
+        array[:agents] = np.repeat(values, counts)
+
+    fill(swarm.max_speed, [fleet.max_speed for fleet in fleets])
+    fill(swarm.sensor_radius, [fleet.sensor_radius for fleet in fleets])
+    fill(swarm.detection, [fleet.detection_probability for fleet in fleets])
+    fill(swarm.false_alarm, [fleet.false_alarm_probability for fleet in fleets])
+    fill(swarm.max_acceleration, [fleet.max_acceleration or math.inf for fleet in fleets])
+    fill(swarm.max_turn_rate, [math.radians(fleet.max_turn_rate or math.inf) for fleet in fleets])
+    fill(swarm.neighbors, degrees(scenario, crew))
+    swarm.share_end[:agents] = shares(scenario)
+    nobody = swarm.fleet_end - [
+        sum(join.count for join in scenario.joins if join.fleet == each.name) for each in fleets
+    ]
+    for join in scenario.joins:
+        fleet = scenario.fleet_names.index(join.fleet)
+        swarm.joins[nobody[fleet] : nobody[fleet] + join.count] = join.step
+        nobody[fleet] += join.count
+    return swarm
+
+
+def build_radio(scenario: Scenario, crew: Crew, lanes: int) -> Any:
+    """Limits of the network, and room for what is under way. Strategies that hear all are told so here, too."""
+    network, adaptive = scenario.network, scenario.network.adaptive
+    radio = new_radio(
+        lanes,
+        crew.told,
+        limited=network.range is not None or network.delay > 0 or _is_mortal(scenario),
+        reach=network.range or math.inf,
+        delay=network.delay,
+        loss=network.loss,
+        degree=(adaptive.fewest, adaptive.most, adaptive.patience) if adaptive else None,
+    )
+    everybody = np.repeat([strategy.hears_all for strategy in crew.strategies], scenario.counts)
+    for limit in (radio.fewest, radio.most):
+        limit[: scenario.agents][everybody] = scenario.agents - 1
+    return radio
+
+
+def losses_of(scenario: Scenario) -> Any:
+    """Step, fleet (-1: any) and count of every loss, in the order of the steps, (C, 3)."""
+    names = scenario.fleet_names
+    rows = [[loss.step, names.index(loss.fleet) if loss.fleet else -1, loss.count] for loss in scenario.losses]
+    return np.array(sorted(rows), np.int64).reshape(-1, 3)
+
+
+def open_tracks(scenario: Scenario) -> list[Track]:
+    """Read the recorded tracks of a scenario, in the order of its targets.
+
+    Raises
+    ------
+    TrackError : one cannot be used
+    ScenarioError : one is not what the scenario was made with
+    """
+    return [open_track(target, scenario.area.origin) for target in scenario.targets if isinstance(target, TrackTarget)]
+
+
+def build_targets(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Any, Tracks]:
+    """One record per target; the fixes of recorded ones behind each other."""
+    targets = np.zeros(len(scenario.targets), TARGET).view(np.recarray)
+    unread = list(tracks)
+    first_fix = 0
+    for record, target in zip(targets, scenario.targets, strict=True):
+        record["kind"] = KINDS.index(target.kind)
+        record["radius"] = target.radius
+        record["present"] = 1
+        record["lost"] = -1
+        if isinstance(target, StillTarget):
+            record["x"], record["y"] = target.x, target.y
+        elif isinstance(target, MovingTarget):
+            _fill_moving(record, target, scenario)
+        else:
+            track = unread.pop(0)
+            record["first_fix"] = first_fix
+            record["fixes"] = track.time.size
+            record["max_gap"] = track.max_gap
+            first_fix += track.time.size
+    return targets, _join_tracks(tracks)
+
+
+def _fill_moving(record: Any, target: MovingTarget, scenario: Scenario) -> None:
+    """What a target's rule says; fields of the same name are the same thing."""
+    record["half_x"] = scenario.area.width / 2 - target.margin
+    record["half_y"] = scenario.area.height / 2 - target.margin
+    for name, value in target.model_dump(exclude={"kind", "margin", "max_turn", "persistence"}).items():
+        record[name] = value or 0.0
+    if isinstance(target, WaypointTarget | EvasiveTarget):
+        record["turn_cos"] = math.cos(math.radians(target.max_turn))
+        record["turn_sin"] = math.sin(math.radians(target.max_turn))
+    if isinstance(target, WalkTarget | EvasiveTarget | DriftTarget):
+        record["diffusion"] = 1.0 / target.persistence
+
+
+def _join_tracks(tracks: Sequence[Track]) -> Tracks:
+    if not tracks:
+        return Tracks(np.zeros(1), np.zeros(1), np.zeros(1))
+    return Tracks(*(np.concatenate([getattr(track, name) for track in tracks]) for name in ("time", "x", "y")))

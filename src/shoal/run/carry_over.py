@@ -1,0 +1,82 @@
+"""Carry over: the state of a running simulation in another scenario, as if the swarm had changed while it ran."""
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.core.agents import NEVER
+from shoal.run.simulation import Simulation
+from shoal.run.state import State
+from shoal.scenario.schema import Scenario
+
+Lanes = npt.NDArray[np.int64]
+
+
+def carry_over(old: Simulation, scenario: Scenario, origin: npt.ArrayLike | None = None) -> Simulation:
+    """Return a simulation of `scenario` that goes on where `old` is, which stays as it is.
+
+    The step and the whole state are carried over: of agents, of targets of the same kind, and what is on the air. What
+    depends on more than the agent itself has a rule: memories go to agents whose strategy is the same, others begin
+    theirs where they are; k is carried where it adapts. Sums begin anew. Same bits, whenever the same is carried over
+    at the same step.
+
+    Parameters
+    ----------
+    scenario : what is from now on
+    origin : (N,) for each agent the one that it was, -1 for a new one; default: agents keep their numbers
+
+    Raises
+    ------
+    StrategyError : the strategy cannot be compiled
+    """
+    new = Simulation(scenario, old.run)
+    new.number = old.number
+    came_from = np.arange(scenario.agents) if origin is None else np.asarray(origin, np.int64)
+    here = np.flatnonzero((came_from >= 0) & (came_from < old.scenario.agents))
+    there = came_from[here]
+    before = old.moment
+    with new.edit() as now:
+        _carry_bodies(old, new, now, here, there)
+        _let_join(new.number, now, np.setdiff1d(np.arange(scenario.agents), here))
+        for mine in range(min(new.targets.size, old.targets.size)):
+            if new.targets[mine]["kind"] == old.targets[mine]["kind"]:
+                now.targets[mine] = before.targets[mine]
+        new.begin()
+        _carry_memory(old, new, now, here, there)
+        _carry_air(old, new, now, here, there)
+    return new
+
+
+def _carry_bodies(old: Simulation, new: Simulation, now: State, here: Lanes, there: Lanes) -> None:
+    """Everything of an agent's own but its memory; k only where it adapts, else it is what is chosen now."""
+    chosen = now.swarm.neighbors.copy()
+    for mine, theirs in zip(now.swarm, old.moment.swarm, strict=True):
+        if mine.ndim == 1:  # memories have a column per field, and a rule of their own
+            mine[here] = theirs[there]
+    adapts = old.radio.adaptive and new.radio.adaptive
+    now.swarm.neighbors[:] = np.clip(now.swarm.neighbors, new.radio.fewest, new.radio.most) if adapts else chosen
+
+
+def _let_join(number: int, now: State, agents: Lanes) -> None:
+    """New agents are there from now on; their lifetimes begin now."""
+    now.swarm.joins[agents] = number
+    mortal = agents[now.swarm.leaves[agents] < NEVER]
+    now.swarm.leaves[mortal] += number
+
+
+def _carry_memory(old: Simulation, new: Simulation, now: State, here: Lanes, there: Lanes) -> None:
+    """Fields of the same name, of agents with the same strategy."""
+    before = [old.crew.strategies[fleet] for fleet in old.swarm.fleet[there]]
+    after = [new.crew.strategies[fleet] for fleet in new.swarm.fleet[here]]
+    same = np.array([one is other for one, other in zip(before, after, strict=True)], bool)
+    for column, name in enumerate(new.memory_fields):
+        if name in old.memory_fields:
+            now.swarm.memory[here[same], column] = old.swarm.memory[there[same], old.memory_fields.index(name)]
+    now.swarm.told[:] = now.swarm.memory[:, : now.swarm.told.shape[1]]  # memory begins with what is told
+
+
+def _carry_air(old: Simulation, new: Simulation, now: State, here: Lanes, there: Lanes) -> None:
+    """Reports that are still on their way; where there are none such, as if all had always said what they say now."""
+    for name, said in now.air._asdict().items():
+        said[:] = getattr(now.swarm, name)
+        if old.radio.delay == new.radio.delay and (name != "told" or old.crew.told == new.crew.told):
+            said[:, here] = getattr(old.moment.air, name)[:, there]

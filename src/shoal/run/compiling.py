@@ -1,0 +1,46 @@
+"""The engine compiled for a strategy: its entry points, and whether they are cached."""
+
+from pathlib import Path
+from typing import Any
+
+from shoal.compiler.kernel import cache_folder, uncached
+from shoal.engine.rollout import begin_run, rollout
+from shoal.scenario.crew import Crew, crew_of
+from shoal.scenario.schema import Scenario
+
+_UNCACHED: dict[Any, tuple[Any, Any]] = {}
+
+
+def entry_points(crew: Crew) -> tuple[Any, Any]:
+    """begin_run and rollout: from the cache for our own strategies, fresh ones for a user's."""
+    if crew.builtin:
+        return begin_run, rollout
+    kind = tuple(each.params for each in crew.strategies)
+    if kind not in _UNCACHED:
+        _UNCACHED[kind] = (uncached(begin_run), uncached(rollout))
+    return _UNCACHED[kind]
+
+
+def needs_compiling(scenario: Scenario) -> bool:
+    """Whether the first step will compile the engine for this strategy, which it does once per version."""
+    crew = crew_of(scenario)
+    return not crew.builtin or not _compiled_mark(crew.name).exists()
+
+
+def engine_is_compiled() -> bool:
+    """Whether the parts of the engine that know no strategy are in the cache."""
+    return any(cache_folder().glob("compiled-*"))
+
+
+def mark_compiled(scenario: Scenario) -> None:
+    """Remember that this strategy's engine is in the cache."""
+    crew = crew_of(scenario)
+    if crew.builtin:
+        try:
+            _compiled_mark(crew.name).touch()
+        except OSError:
+            return  # only a message depends on it
+
+
+def _compiled_mark(name: str) -> Path:
+    return cache_folder() / f"compiled-{name}"

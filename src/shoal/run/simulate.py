@@ -1,0 +1,178 @@
+"""Run a scenario: description in, record out."""
+
+import os
+import platform
+import threading
+import time
+from collections.abc import Callable
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
+from contextlib import nullcontext
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import numba
+import numpy as np
+
+from shoal.core.errors import ScenarioError
+from shoal.metrics.tally import Tally
+from shoal.record.files import RecordFolder
+from shoal.record.record import Record
+from shoal.record.trajectory import Trajectory
+from shoal.run.compiling import mark_compiled
+from shoal.run.facts import facts_of
+from shoal.run.simulation import Simulation, count_frames
+from shoal.scenario.edit import check_words
+from shoal.scenario.load import Source, load
+from shoal.scenario.schema import Scenario
+from shoal.version import RESULTS_VERSION, VERSION
+
+OVERVIEW = 500  # frames of the first run kept over its whole length, if not told otherwise
+TAIL = 300  # and of its last steps, all
+
+Progress = Callable[[int, int], None]
+
+
+def simulate(
+    scenario: Source,
+    *,
+    runs: int = 1,
+    jobs: int | None = None,
+    every: int | None = None,
+    out: str | Path | None = None,
+    progress: Progress | None = None,
+    **changes: Any,
+) -> Record:
+    """Run a scenario and return its record.
+
+    >>> shoal.simulate("oceans2020", runs=5, steps=20_000, neighbors=10, target_speed="6 kn")
+
+    Parameters
+    ----------
+    scenario : what to run: a preset's name, a TOML file, a dict or a Scenario
+    runs : independent replicates, R; replicate r of two scenarios with one seed shares its chance
+    jobs : threads, one run each; default: one per core
+    every : keep the frame of every so many-th step of every run; default: an overview of the first run
+    out : write the record to this new folder; trajectories stream there, so memory does not grow with steps
+    progress : called as progress(steps done, steps in all) from time to time, from any thread
+    changes : to the scenario, in the words of the command line, as in `Scenario.with_`
+
+    Raises
+    ------
+    ScenarioError, TrackError, StrategyError : what cannot run
+    RecordError : `out` exists or cannot be written
+    """
+    for name, number in (("runs", runs), ("jobs", jobs), ("every", every)):
+        if number is not None and number < 1:
+            raise ScenarioError(name, f"is {number}", "ask for 1 or more")
+    check_words(changes, also=("runs", "jobs", "every", "out", "progress"))
+    scenario = load(scenario, **changes)
+    begun, started = time.perf_counter(), datetime.now(UTC)
+    with RecordFolder(out) if out is not None else nullcontext() as folder:
+        keep = _Keep(scenario.steps, every, folder)
+        first = Simulation(scenario)
+        first.advance(0)  # compiles here and once, not in every thread
+        mark_compiled(scenario)
+        results = _run_all(scenario, first, runs, jobs or os.cpu_count() or 1, keep, progress or _silent)
+        record = Record(
+            scenario=scenario.model_dump(mode="json"),
+            facts=facts_of(scenario),
+            tallies=tuple(tally for tally, _ in results),
+            provenance=provenance(scenario, started, time.perf_counter() - begun, first.notes),
+            trajectories={run: frames for run, (_, frames) in enumerate(results) if frames is not None},
+        )
+        return folder.finish(record) if folder else record
+
+
+def provenance(scenario: Scenario, started: datetime, seconds: float, notes: list[str]) -> dict[str, Any]:
+    """Where a result comes from."""
+    return {
+        "steps": scenario.steps,
+        "seed": scenario.seed,
+        "scenario_hash": scenario.hash,
+        "results_version": RESULTS_VERSION,
+        "versions": {
+            "shoal": VERSION,
+            "numba": numba.__version__,
+            "numpy": np.__version__,
+            "python": platform.python_version(),
+        },
+        "platform": f"{platform.system()} {platform.machine()}",
+        "started": started.isoformat(timespec="seconds"),
+        "seconds": round(seconds, 3),
+        "notes": notes,
+    }
+
+
+class _Keep:
+    """Which frames are kept, and where they go."""
+
+    def __init__(self, steps: int, every: int | None, folder: RecordFolder | None) -> None:
+        self.every = every or max(1, -(-steps // OVERVIEW))
+        self.tail = steps if every else max(0, steps - TAIL)
+        self.all_runs = every is not None
+        self.folder = folder
+        self.frames = count_frames(0, steps, self.every, self.tail)
+
+
+def _run_all(
+    scenario: Scenario, first: Simulation, runs: int, jobs: int, keep: _Keep, progress: Progress
+) -> list[tuple[Tally, Trajectory | None]]:
+    stop = threading.Event()
+    done, total, lock = 0, runs * scenario.steps, threading.Lock()
+
+    def count(steps: int) -> None:
+        nonlocal done
+        with lock:
+            done += steps
+            progress(done, total)
+
+    def one(run: int) -> tuple[Tally, Trajectory | None]:
+        simulation = first if run == 0 else Simulation(scenario, run)
+        return _run_one(simulation, keep, stop, count)
+
+    if min(runs, jobs) == 1:
+        return [one(run) for run in range(runs)]
+    with ThreadPoolExecutor(min(runs, jobs)) as pool:
+        tasks = [pool.submit(one, run) for run in range(runs)]
+        try:
+            finished = wait(tasks, return_when=FIRST_EXCEPTION).done
+            for task in finished:
+                task.result()  # raises what ended it, without waiting for the others
+            return [task.result() for task in tasks]
+        except BaseException:
+            stop.set()  # every thread ends at its next chunk
+            pool.shutdown(cancel_futures=True)
+            raise
+
+
+def _run_one(
+    simulation: Simulation, keep: _Keep, stop: threading.Event, count: Callable[[int], None]
+) -> tuple[Tally, Trajectory | None]:
+    """Run to the end in chunks, so that progress is seen and an interrupt is heard."""
+    steps = simulation.scenario.steps
+    records = keep.all_runs or simulation.run == 0
+    parts: list[Trajectory] = []
+    writer = keep.folder.trajectory(simulation.run, keep.frames) if records and keep.folder else None
+    try:
+        while simulation.number < steps and not stop.is_set():
+            chunk = min(chunk_steps(simulation.scenario.agents), steps - simulation.number)
+            part = simulation.advance(chunk, every=keep.every if records else None, tail=keep.tail)
+            if part and writer:
+                writer.append(part)
+            elif part:
+                parts.append(part)
+            count(chunk)
+    finally:
+        if writer:
+            writer.close()
+    return simulation.tally, Trajectory.join(parts) if parts else None
+
+
+def chunk_steps(agents: int) -> int:
+    """Steps of one compiled call: some 20 ms."""
+    return max(1, 8_000_000 // (max(agents, 8) * max(agents, 50)))
+
+
+def _silent(done: int, total: int) -> None:
+    """Report nothing."""

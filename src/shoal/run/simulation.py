@@ -1,0 +1,242 @@
+"""Simulation: one run of a scenario that can be advanced, looked at, saved and resumed at any step."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from shoal.compiler.kernel import compiles
+from shoal.compiler.placed import Placed
+from shoal.core.agents import NEVER, Minds, as_records
+from shoal.core.errors import ScenarioError, StrategyError
+from shoal.core.text import plain
+from shoal.engine.phases import addresses
+from shoal.engine.rollout import set_out
+from shoal.engine.stage import Frames, Run, Stage, new_frames, new_scratch
+from shoal.metrics.tally import new_tally
+from shoal.record.saved_state import read_state, write_state
+from shoal.record.trajectory import Trajectory
+from shoal.run.build import build_radio, build_swarm, build_targets, build_world, losses_of, open_tracks
+from shoal.run.compiling import entry_points
+from shoal.run.state import State, arrays_of, read_only, state_of
+from shoal.scenario.crew import crew_of
+from shoal.scenario.load import Source, load
+from shoal.scenario.strategy_errors import strategy_errors
+from shoal.version import RESULTS_VERSION
+from shoal.world.placement import PLACES
+
+_set_out: Any = set_out  # kernels have no types that mypy sees
+BATCHES = 20  # of one run, for batch means
+
+
+class Simulation:
+    """One run of a scenario. Same scenario, seed and run: same bits, however it is advanced.
+
+    Parameters
+    ----------
+    scenario : what to run: a Scenario, or what shoal.load takes
+    run : number of the replicate; with the seed it decides all chance
+
+    Attributes
+    ----------
+    number : steps done
+    swarm : read-only arrays of the agents' state and make (padded: the first `scenario.agents` lanes count)
+    targets : read-only array of target records, (T,)
+    tally : read-only sums so far
+    minds : read-only records of what agents remember, in the words of their strategy
+    moment : all of the state, read-only; `edit` opens it for changes
+    notes : what was assumed or dropped in reading recorded tracks
+
+    Raises
+    ------
+    ScenarioError : it is none that can run
+    TrackError : a recorded track cannot be used
+    StrategyError : the strategy cannot be compiled, or raises an error
+    """
+
+    def __init__(self, scenario: Source, run: int = 0) -> None:
+        self.scenario = scenario = load(scenario)  # whoever made or copied it
+        self.run = run
+        self.number = 0
+        self.crew = crew_of(scenario)
+        self.memory_fields = self.crew.memory
+        self.world = build_world(scenario)
+        self._swarm = build_swarm(scenario, self.crew)
+        self._radio = build_radio(scenario, self.crew, self._swarm.x.size)
+        tracks = open_tracks(scenario)
+        self.notes = [note for track in tracks for note in track.notes]
+        self._targets, self.tracks = build_targets(scenario, tracks)
+        minds = Minds(
+            memory=as_records(self._swarm.memory, self.memory_fields),
+            told=as_records(self._swarm.told, self.crew.told),
+            arrived=as_records(self._radio.told, self.crew.told),
+        )
+        plain = Minds(*(np.asarray(each) for each in minds))
+        self._minds = plain if compiles() else minds  # numba takes recarrays, too, but slowly
+        batches = min(BATCHES, scenario.steps)
+        self._tally = new_tally(scenario.steps, batches, len(scenario.fleets), scenario.agents, len(scenario.targets))
+        self._state = state_of(self._swarm, self._radio, self._targets, self._tally)
+        self.swarm, self.targets, self.minds = read_only(self._swarm), read_only(self._targets), read_only(minds)
+        self.moment: State = read_only(self._state)
+        self.tally = self.moment.tally
+        self._scratch = new_scratch(self.world, self._swarm.x.size, self.crew.sums, self.crew.ranked)
+        self._begin, self._rollout = entry_points(self.crew)
+        self._which = Run(np.uint64(scenario.seed), run, scenario.steps)
+        self._phases = addresses()
+        self._no_frames = self._new_frames(0)
+        self._placed = Placed(self._stage(self._no_frames))
+        places = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
+        lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
+        _set_out(self._placed.address, places, lifetimes, losses_of(scenario))
+        self.begin()
+        self._settle()
+
+    def __repr__(self) -> str:
+        """One line: of what, and how far."""
+        done = f"step {self.number:,} of {self.scenario.steps:,}"
+        return f"<Simulation of {plain(self.scenario.name)}, run {self.run}: {done}>"
+
+    def begin(self) -> None:
+        """Set up every agent's memory, as its strategy does before the first step."""
+        with strategy_errors(self.crew):
+            self._begin(self._in_place().address, self._minds, self.crew.params)
+
+    def advance(self, steps: int, *, every: int | None = None, tail: int | None = None) -> Trajectory | None:
+        """Run so many steps; with `every`, return the frames of every so many-th step and of all from step `tail` on.
+
+        Memory and results do not depend on how a run is cut into calls. When a call is back the state is true: agents
+        are on target that are where they stand now.
+
+        Raises
+        ------
+        ScenarioError : steps below 0
+        StrategyError : the strategy cannot be compiled, raises an error, or spoils a number
+        """
+        if steps < 0:
+            raise ScenarioError("advance", f"is asked for {steps} steps", "time goes forward: ask for 0 or more")
+        first, last = self.number, self.number + steps
+        if every is None:
+            self._roll(self._in_place(), first, last, NEVER, NEVER)
+            return None
+        tail = NEVER if tail is None else tail
+        frames = self._new_frames(count_frames(first, last, every, tail))
+        self._roll(Placed(self._stage(frames)), first, last, every, tail)
+        return Trajectory.from_frames(frames, self.memory_fields) if frames.step.size else None
+
+    def look(self) -> Trajectory:
+        """Return the frame of now (K = 1), as the coming step would keep it. Nothing is changed."""
+        n, swarm, targets = self.scenario.agents, self.swarm, self.targets
+        return Trajectory(
+            step=np.array([self.number]),
+            x=swarm.x[None, :n].copy(),
+            y=swarm.y[None, :n].copy(),
+            vx=swarm.vx[None, :n].copy(),
+            vy=swarm.vy[None, :n].copy(),
+            on_target=swarm.on_target[None, :n].copy(),
+            alive=swarm.alive[None, :n] > 0.0,
+            target_x=targets["x"][None].copy(),
+            target_y=targets["y"][None].copy(),
+            target_present=targets["present"][None] != 0,
+            memory={name: swarm.memory[None, :n, m].copy() for m, name in enumerate(self.memory_fields)},
+        )
+
+    @contextmanager
+    def edit(self) -> Iterator[State]:
+        """Open the state for changes by hand; when the block ends, who is on target is decided anew.
+
+        >>> with simulation.edit() as now:
+        ...     now.swarm.x[:2] = 0.0
+
+        Raises
+        ------
+        StrategyError : a number is not finite
+        """
+        yield self._state
+        self._settle()
+
+    def state(self) -> dict[str, Any]:
+        """Everything that a resumed run needs, as arrays by name; read-only."""
+        return dict(arrays_of(self.moment)) | {"number": np.array(self.number)}
+
+    def save(self, file: str | Path) -> None:
+        """Write the state to an .npz file, whole or not at all."""
+        write_state(file, self._identity(), self.state())
+
+    def restore(self, file: str | Path) -> None:
+        """Continue from a saved state of the same scenario, seed and run.
+
+        Raises
+        ------
+        RecordError : no saved state, a damaged one, or one of something else
+        """
+        saved = read_state(file, self._identity(), self.state())  # read whole before anything is overwritten
+        for name, array in arrays_of(self._state):
+            array[...] = saved[name]
+        self.number = int(saved["number"])
+        self._settle()
+
+    @property
+    def radio(self) -> Any:
+        """Settings of the radio, and what is on the air; read-only."""
+        return read_only(self._radio)
+
+    def _settle(self) -> None:
+        """Make the state true after a change; where everybody is always there, the engine leaves a lot out."""
+        if not self.world.mortal and (self._swarm.leaves < NEVER).any():
+            self.world = self.world._replace(mortal=True)
+            self._radio = self._radio._replace(limited=True)
+        self.advance(0)
+
+    def _roll(self, placed: Placed, first: int, last: int, every: int, tail: int) -> None:
+        """Run steps first..last on a stage.
+
+        Raises
+        ------
+        StrategyError : a position, a velocity or a sum is not finite
+        """
+        with strategy_errors(self.crew):
+            spoiled = self._rollout(placed.address, self._minds, self.crew.params, first, last, every, tail)
+        self.number = last
+        if spoiled:
+            raise StrategyError(
+                self.crew.source,
+                f"strategy {self.crew.name!r} wanted a velocity that is not finite, before step {self.number}",
+                "look for a division by zero or the root of a negative number",
+            )
+
+    def _in_place(self) -> Placed:
+        """The stage, where kernels find it; it stays there from call to call unless a part of it is another one."""
+        stage = self._stage(self._no_frames)
+        if any(one is not other for one, other in zip(stage, self._placed.stage, strict=True)):
+            self._placed = Placed(stage)
+        return self._placed
+
+    def _identity(self) -> str:
+        return f"{self.scenario.hash}-seed{self.scenario.seed}-run{self.run}-results{RESULTS_VERSION}"
+
+    def _stage(self, frames: Frames) -> Stage:
+        return Stage(
+            self.world,
+            self._swarm,
+            self._radio,
+            self._targets,
+            self.tracks,
+            self._tally,
+            self._scratch,
+            frames,
+            self._phases,
+            self._which,
+        )
+
+    def _new_frames(self, count: int) -> Frames:
+        return new_frames(count, self.scenario.agents, self._targets.size, self._swarm.memory.shape[1])
+
+
+def count_frames(first: int, last: int, every: int | None, tail: int) -> int:
+    """Number of frames that steps first..last keep."""
+    if every is None:
+        return 0
+    before = min(last, max(tail, first))
+    return (-(-before // every)) - (-(-first // every)) + (last - before)

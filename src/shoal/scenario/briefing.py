@@ -1,0 +1,59 @@
+"""What agents are told before they leave: nothing that they could only learn at sea."""
+
+from typing import Any
+
+import numpy as np
+
+from shoal.core.errors import ScenarioError
+from shoal.core.messages import Briefing
+from shoal.scenario.crew import Crew
+from shoal.scenario.load import Source, load
+from shoal.scenario.schema import Scenario
+
+
+def briefing(scenario: Source, id: int) -> Briefing:
+    """Return what agent `id` (0 to N - 1) is told before it leaves: `me.briefing` of its strategy.
+
+    Raises
+    ------
+    ScenarioError : there is no such agent
+    """
+    scenario = load(scenario)
+    fleet = scenario.fleets[fleet_of(scenario, id)]
+    ends = shares(scenario)
+    return Briefing(
+        agents=scenario.agents,
+        half_x=scenario.area.width / 2 - scenario.area.agent_margin,
+        half_y=scenario.area.height / 2 - scenario.area.agent_margin,
+        reach=fleet.sensor_radius + min(target.radius for target in scenario.targets),
+        share_begin=float(ends[id - 1]) if id > 0 else 0.0,
+        share_end=float(ends[id]),
+    )
+
+
+def fleet_of(scenario: Scenario, id: int) -> int:
+    """Return the index of an agent's fleet.
+
+    Raises
+    ------
+    ScenarioError : there is no such agent
+    """
+    if isinstance(id, bool) or not isinstance(id, (int, np.integer)) or not 0 <= id < scenario.agents:
+        raise ScenarioError("id", f"is {id!r}", f"name an agent by its number, 0 to {scenario.agents - 1}")
+    return int(np.searchsorted(np.cumsum(scenario.counts), id, side="right"))
+
+
+def shares(scenario: Scenario) -> Any:
+    """Return where each agent's share of the summed top speeds ends, from 0 to 1 in the order of ids, (N,)."""
+    speeds = np.repeat([fleet.max_speed for fleet in scenario.fleets], scenario.counts)
+    return np.cumsum(speeds) / speeds.sum()
+
+
+def degrees(scenario: Scenario, crew: Crew) -> list[int]:
+    """Return k of each fleet, before it adapts."""
+    everybody = scenario.agents - 1
+    chosen = [fleet.neighbors or scenario.network.neighbors for fleet in scenario.fleets]
+    return [
+        everybody if strategy.hears_all or degree == "all" else degree
+        for strategy, degree in zip(crew.strategies, chosen, strict=True)
+    ]

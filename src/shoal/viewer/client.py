@@ -1,0 +1,103 @@
+"""One page at the other end of a WebSocket."""
+
+import asyncio
+from collections import deque
+from collections.abc import Callable
+from contextlib import suppress
+
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from shoal.viewer.requests import RequestError, parse_request
+from shoal.viewer.scene import as_json
+from shoal.viewer.worker import Watcher, Worker
+
+NONSENSE = 20  # malformed messages after which a page is disconnected
+UNHEARD = 32  # error messages that wait for one page, at most
+
+
+class Client:
+    """One page: hears the newest that there is whenever it is ready for more, and asks.
+
+    It may be as slow as it likes: what comes meanwhile is skipped, and nobody waits for it.
+    """
+
+    def __init__(self, socket: WebSocket, worker: Worker) -> None:
+        self._socket = socket
+        self._worker = worker
+        self._news = asyncio.Event()
+        self._nonsense = 0
+        self._errors: deque[str] = deque(maxlen=UNHEARD)
+        loop = asyncio.get_running_loop()
+
+        def changed() -> None:
+            _call(loop, self._news.set)
+
+        def failed(message: str) -> None:
+            _call(loop, lambda: self._fail(message))
+
+        self._watcher = Watcher(changed, failed)
+
+    async def serve(self) -> None:
+        """Until the page is closed."""
+        await self._socket.accept()
+        self._worker.watch(self._watcher)
+        telling = asyncio.create_task(self._tell())
+        try:
+            await self._hear()
+        finally:
+            self._worker.leave(self._watcher)
+            telling.cancel()
+            with suppress(asyncio.CancelledError, WebSocketDisconnect):
+                await telling
+        if self._nonsense > NONSENSE:
+            await self._socket.close(1008, "too many messages that are no requests")
+
+    async def _tell(self) -> None:
+        await self._socket.send_text(self._worker.hello)
+        for history in self._worker.session.history():
+            await self._socket.send_text(history)
+        scenes: list[str | None] = [None] * len(self._worker.session.runs)
+        kept = None
+        self._news.set()
+        while True:
+            await self._news.wait()
+            self._news.clear()
+            while self._errors:
+                await self._socket.send_text(as_json({"type": "error", "message": self._errors.popleft()}))
+            view = self._worker.view
+            for run, scene in enumerate(view.kept.scenes):
+                if scene is not scenes[run]:
+                    scenes[run] = scene
+                    await self._socket.send_text(scene)
+            if view.kept is not kept:
+                kept = view.kept
+                for frame in kept.frames:
+                    await self._socket.send_bytes(frame)
+            await self._socket.send_text(view.status)
+
+    async def _hear(self) -> None:
+        """Pass requests on; a page that talks nonsense is told so, and in the end not listened to."""
+        while self._nonsense <= NONSENSE:
+            message = await self._socket.receive()
+            if message["type"] != "websocket.receive":
+                return
+            try:
+                text = message.get("text")
+                request = parse_request(text if text is not None else message.get("bytes") or b"")
+            except RequestError as error:
+                self._nonsense += 1
+                self._fail(str(error))
+            else:
+                self._worker.ask(request, self._watcher)
+
+    def _fail(self, message: str) -> None:
+        self._errors.append(message)
+        self._news.set()
+
+
+def _call(loop: asyncio.AbstractEventLoop, function: Callable[[], None]) -> None:
+    """Call in the loop's thread, unless the loop has ended."""
+    try:
+        loop.call_soon_threadsafe(function)
+    except RuntimeError:
+        return

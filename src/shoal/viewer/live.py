@@ -1,0 +1,238 @@
+"""One run that goes on while its scenario changes: what the controls of the page act on."""
+
+import math
+from collections import deque
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from shoal.core.errors import ScenarioError
+from shoal.metrics.summary import METRICS
+from shoal.record.trajectory import Trajectory
+from shoal.run.carry_over import carry_over
+from shoal.run.compiling import mark_compiled
+from shoal.run.facts import facts_of
+from shoal.run.live_edits import move_target, remove_agent
+from shoal.run.simulation import Simulation
+from shoal.scenario.edit import apply
+from shoal.scenario.load import scenario_from
+from shoal.scenario.schema import Scenario
+from shoal.strategies import CATALOGUE
+from shoal.strategies.contract import RESERVED
+from shoal.viewer.frame import RECENT, Gauges, pack
+from shoal.viewer.meter import Meter
+from shoal.viewer.scene import REPULSION, as_json, scene_of
+
+Table = dict[str, Any]
+
+CHANGEABLE = ("neighbors", "target_speed", "fast", "strategy")  # and strategy.PARAMETER
+
+
+class _Mark(NamedTuple):
+    """Sums of all steps before a step."""
+
+    step: int
+    present: float
+    on_target: float
+
+
+class LiveRun:
+    """A run of the scenario that a raw table describes.
+
+    Same table and same changes at the same steps: same bits.
+
+    Attributes
+    ----------
+    place : 0, or 1 of the second of two runs side by side
+    simulation : the run; its scenario is the one of now
+    message : the scene of now, as the page is told it
+    """
+
+    def __init__(self, table: Table, place: int = 0, *, where: str = "scenario", text: str = "") -> None:
+        self.place = place
+        self._table = table
+        self._epoch = -1
+        scenario = scenario_from(table, where=where, text=text)
+        self._first_strategy = (scenario.strategy.name, table["strategy"])
+        self._begin(scenario)
+
+    def advance(self, steps: int) -> None:
+        """Go on so many steps."""
+        self.simulation.advance(steps)
+
+    def frame(self) -> bytes:
+        """The bytes of the frame of now."""
+        shown = self.simulation.look()
+        size = self.simulation.scenario.agents
+        memory = shown.memory.get(REPULSION)
+        return pack(
+            run=self.place,
+            epoch=self._epoch,
+            step=self.simulation.number,
+            gauges=self._gauges(shown),
+            agents={
+                "x": shown.x[0],
+                "y": shown.y[0],
+                "vx": shown.vx[0],
+                "vy": shown.vy[0],
+                "repulsion": np.full(size, np.nan) if memory is None else memory[0],
+                "degree": self.simulation.swarm.neighbors[:size],
+                "on_target": shown.on_target[0],
+                "alive": shown.alive[0],
+            },
+            targets={"x": shown.target_x[0], "y": shown.target_y[0], "present": shown.target_present[0]},
+        )
+
+    def scenario_with(self, changes: Mapping[str, Any]) -> tuple[Table, Scenario]:
+        """Return table and scenario with some fields changed; nothing happens yet.
+
+        Raises
+        ------
+        ScenarioError : a field that cannot be changed while a swarm runs, or what the scenario says of the value
+        """
+        for name in changes:
+            if name not in CHANGEABLE and not _is_parameter(name):
+                raise ScenarioError(name, "cannot be changed while the swarm runs", f"change {', '.join(CHANGEABLE)}")
+        table = self._with_strategy(changes["strategy"]) if "strategy" in changes else self._table
+        table = apply(table, {name: value for name, value in changes.items() if name != "strategy"})
+        table = _with_empty_fleets(table, self._table)
+        return table, _scenario_of(table)
+
+    def change(self, changes: Mapping[str, Any]) -> None:
+        """Change fields of the scenario: neighbors, target_speed, fast, strategy, strategy.PARAMETER.
+
+        Raises
+        ------
+        ScenarioError : see `scenario_with`; then nothing has changed
+        StrategyError : the strategy cannot be compiled
+        """
+        table, scenario = self.scenario_with(changes)
+        self._become(table, carry_over(self.simulation, scenario))
+
+    def kill(self, agent: int) -> None:
+        """Let an agent be gone; it keeps its number."""
+        remove_agent(self.simulation, agent)
+        changed = carry_over(self.simulation, self.simulation.scenario)  # for sums that begin now
+        self._become(self._table, changed)
+
+    def add(self, fleet: int, x: float, y: float) -> None:
+        """Let an agent join a fleet (by its place among those of now) at x, y [m], as its last.
+
+        Raises
+        ------
+        ScenarioError : no such fleet, a place outside the arena, or too many agents
+        """
+        old = self.simulation
+        fleets, world = old.scenario.fleets, old.world
+        if not 0 <= fleet < len(fleets):
+            raise ScenarioError("fleet", f"is {fleet}", f"name one from 0 to {len(fleets) - 1}")
+        if abs(x) > world.clamp_x or abs(y) > world.clamp_y:
+            room = f"{world.clamp_x:g} m east or west and {world.clamp_y:g} m north or south"
+            raise ScenarioError("add", f"({x:g}, {y:g}) m is outside the arena", f"stay within {room} of its center")
+        name = fleets[fleet].name
+        more = [{**each, "count": each["count"] + (each["name"] == name)} for each in self._table["fleets"]]
+        table = {**self._table, "fleets": more}
+        scenario = _scenario_of(table)
+        newcomer = int(old.swarm.fleet_end[fleet])
+        origin = np.insert(np.arange(old.scenario.agents), newcomer, -1)
+        new = carry_over(old, scenario, origin)
+        with new.edit() as now:
+            now.swarm.x[newcomer], now.swarm.y[newcomer] = x, y
+        self._become(table, new)
+
+    def drag(self, target: int, x: float, y: float) -> None:
+        """Put a target somewhere; it goes on from there, and sums go on, too."""
+        move_target(self.simulation, target, x, y)
+
+    def restart(self, seed: int | None = None) -> None:
+        """Begin anew with the settings of now, the killed back among the others."""
+        if seed is not None:
+            self._table = {**self._table, "seed": seed}
+        self._begin(_scenario_of(self._table))
+
+    def _begin(self, scenario: Scenario) -> None:
+        simulation = Simulation(scenario)
+        simulation.advance(0)  # compiles
+        mark_compiled(scenario)
+        self._before = _Mark(0, 0.0, 0.0)
+        self._marks: deque[_Mark] = deque()
+        self._settle(simulation)
+
+    def _become(self, table: Table, simulation: Simulation) -> None:
+        """Go on as a changed swarm."""
+        simulation.advance(0)
+        mark_compiled(simulation.scenario)
+        self._before = self._sums()
+        self._table = table
+        self._settle(simulation)
+
+    def _settle(self, simulation: Simulation) -> None:
+        self.simulation = simulation
+        self._epoch += 1
+        self._facts = facts_of(simulation.scenario)
+        scene = scene_of(
+            simulation.scenario.model_dump(mode="json"),
+            self._facts,
+            simulation.memory_fields,
+            epoch=self._epoch,
+            since=simulation.number,
+        )
+        self.message = as_json({"type": "scene", "run": self.place, "scene": scene})
+
+    def _sums(self) -> _Mark:
+        tally = self.simulation.tally
+        present = self._before.present + float(tally.present.sum())
+        return _Mark(self.simulation.number, present, self._before.on_target + float(tally.on_target.sum()))
+
+    def _gauges(self, shown: Trajectory) -> Gauges:
+        tally, facts, swarm = self.simulation.tally, self._facts, self.simulation.swarm
+        xi_now, phi = Meter(facts, shown).read(0)
+        return Gauges(
+            time_on_target=METRICS["time_on_target"].formula(tally, facts),
+            recent=self._recent(),
+            xi=METRICS["xi"].formula(tally, facts),
+            xi_now=xi_now,
+            engaged=float(swarm.engaged[: facts.agents].sum()),
+            phi=phi,
+        )
+
+    def _recent(self) -> float:
+        """Time on target over the last 1,000 steps, or since the last frame looked at before that."""
+        now = self._sums()
+        if not self._marks or self._marks[-1].step < now.step:
+            self._marks.append(now)
+        while len(self._marks) > 1 and self._marks[1].step <= now.step - RECENT:
+            self._marks.popleft()
+        then = self._marks[0]
+        present = now.present - then.present
+        return (now.on_target - then.on_target) / present if present > 0 else math.nan
+
+    def _with_strategy(self, name: Any) -> Table:
+        """The table with another strategy: of the catalogue, or the one that the run began with; never a file."""
+        if name == self.simulation.scenario.strategy.name:
+            return self._table
+        if name == self._first_strategy[0]:
+            return {**self._table, "strategy": self._first_strategy[1]}
+        if name not in CATALOGUE:
+            known = ", ".join(sorted(CATALOGUE))
+            raise ScenarioError("strategy", f"no strategy is called {name!r}", f"choose one of: {known}")
+        return {**self._table, "strategy": {"name": name}}
+
+
+def _is_parameter(name: str) -> bool:
+    table, _, field = name.partition(".")
+    return table == "strategy" and field.isidentifier() and field not in RESERVED
+
+
+def _scenario_of(table: Table) -> Scenario:
+    """The scenario of a table whose fleets may be empty for a while."""
+    return scenario_from(
+        {**table, "fleets": [fleet for fleet in table["fleets"] if fleet["count"] != 0]}, where="change"
+    )
+
+
+def _with_empty_fleets(table: Table, before: Table) -> Table:
+    """`fast` drops a fleet that it empties; here it stays in the table, so that it can be filled again."""
+    now = {fleet["name"]: fleet for fleet in table["fleets"]}
+    return {**table, "fleets": [now.get(fleet["name"], {**fleet, "count": 0}) for fleet in before["fleets"]]}

@@ -1,0 +1,48 @@
+"""Replay: a record as one page that needs no engine and no network."""
+
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.core.errors import RecordError, ScenarioError
+from shoal.record.record import Record
+from shoal.viewer.page import inline_page
+from shoal.viewer.recorded import recorded_frames, recorded_scene
+from shoal.viewer.ring import evenly
+
+Part = Literal["all", "end"]
+
+FRAMES = 2000  # in a page, if not told otherwise
+
+
+def replay_page(record: Record, *, frames: int = FRAMES, part: Part = "all") -> str:
+    """Return one HTML text that plays a record's first recorded run.
+
+    Parameters
+    ----------
+    frames : at most so many
+    part : spread evenly in time over the whole run; or the last ones, as far as every step was kept
+
+    Raises
+    ------
+    RecordError : the record keeps no frames
+    ScenarioError : fewer than one frame is asked for
+    ShoalError : the page is not built
+    """
+    if frames < 1:
+        raise ScenarioError("frames", f"is {frames}", "ask for 1 or more")
+    if not record.trajectories:
+        raise RecordError("record", "keeps no frames", "run the scenario again with --out")
+    run, kept = next(iter(record.trajectories.items()))
+    chosen = choose_frames(np.asarray(kept.step), frames, part)
+    return inline_page(recorded_scene(record, run), b"".join(recorded_frames(record, run, chosen)))
+
+
+def choose_frames(steps: npt.NDArray[np.int64], frames: int, part: Part) -> npt.NDArray[np.int64]:
+    """Indices of the kept frames to show, given their steps in order (K,): see `replay_page`."""
+    if part == "end":
+        gaps = np.flatnonzero(np.diff(steps) > 1)
+        first = int(gaps[-1]) + 1 if gaps.size else 0
+        return np.arange(max(first, steps.size - frames), steps.size)
+    return evenly(steps, frames)

@@ -1,0 +1,150 @@
+"""The thread that runs a session: it keeps time, obeys requests between frames, and waits for nobody who watches."""
+
+import threading
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from queue import Empty, Full, Queue
+from typing import NamedTuple
+
+from shoal.core.errors import ShoalError
+from shoal.viewer.requests import Request
+from shoal.viewer.ring import Kept
+from shoal.viewer.session import Session
+
+PATIENCE = 0.25  # [s] time that is not made up for when the engine cannot keep the speed
+WAITING = 256  # requests in the queue, at most
+
+
+class View(NamedTuple):
+    """What every page should see now: the frame shown, and the status message."""
+
+    kept: Kept
+    status: str
+
+
+class Watcher(NamedTuple):
+    """Who is told, from the worker's thread: that `view` has changed; that something failed."""
+
+    changed: Callable[[], None]
+    failed: Callable[[str], None]
+
+
+class _Asked(NamedTuple):
+    request: Request
+    watcher: Watcher
+
+
+def next_due(due: float, now: float, lasts: float) -> float:
+    """When the frame that comes is due [s], after one that was due and lasts so long; long delays are forgiven."""
+    return max(due, now - PATIENCE) + lasts
+
+
+class Worker:
+    """Runs a session in a thread of its own while it is a context.
+
+    Attributes
+    ----------
+    hello : the message that a page begins with
+    view : the newest, replaced as a whole
+    on_done : called once in the thread when the session's limit is reached
+    """
+
+    def __init__(self, session: Session, on_done: Callable[[], None] = lambda: None) -> None:
+        self.session = session
+        self.hello = session.hello()
+        self.view = View(session.shown, session.status())
+        self._on_done = on_done
+        self._asked: Queue[_Asked | None] = Queue(WAITING)
+        self._watchers: set[Watcher] = set()
+        self._lock = threading.Lock()
+        self._ended = threading.Event()
+        self._error: BaseException | None = None
+        self._thread = threading.Thread(target=self._run, name="shoal-engine")
+        session.on_busy = self._publish
+
+    def __enter__(self) -> "Worker":
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._ended.set()
+        with suppress(Full):
+            self._asked.put_nowait(None)  # wakes it up
+        self._thread.join()
+
+    def wait(self) -> None:
+        """Wait until the thread ends; raise what ended it."""
+        self._ended.wait()
+        if self._error:
+            raise self._error
+
+    def watch(self, watcher: Watcher) -> None:
+        """Tell a watcher of everything from now on."""
+        with self._lock:
+            self._watchers.add(watcher)
+
+    def leave(self, watcher: Watcher) -> None:
+        """Tell it nothing more."""
+        with self._lock:
+            self._watchers.discard(watcher)
+
+    def ask(self, request: Request, watcher: Watcher) -> None:
+        """Queue a request; the watcher hears if it is refused."""
+        try:
+            self._asked.put_nowait(_Asked(request, watcher))
+        except Full:
+            watcher.failed("request: the engine is busy\n  fix: wait a moment")
+
+    def _run(self) -> None:
+        try:
+            self._keep_time()
+        except BaseException as error:  # a bug: whoever waits gets it
+            self._error = error
+        finally:
+            self._ended.set()
+
+    def _keep_time(self) -> None:
+        due = time.monotonic()
+        was_done = False
+        while not self._ended.is_set():
+            try:
+                asked = self._asked.get(timeout=max(0.0, due - time.monotonic()) if self.session.playing else None)
+            except Empty:
+                due = next_due(due, time.monotonic(), self._play_on())
+            else:
+                played = self.session.playing
+                if asked:
+                    self._obey(asked)
+                if not played:
+                    due = time.monotonic()
+            if self.session.done and not was_done:
+                was_done = True
+                self._on_done()
+
+    def _play_on(self) -> float:
+        try:
+            return self.session.play_on()
+        except ShoalError as error:
+            self.session.playing = False
+            for watcher in self._everybody():
+                watcher.failed(str(error))
+            return 0.0
+        finally:
+            self._publish()
+
+    def _obey(self, asked: _Asked) -> None:
+        try:
+            self.session.obey(asked.request)
+        except ShoalError as error:
+            asked.watcher.failed(str(error))
+        self._publish()
+
+    def _publish(self) -> None:
+        self.view = View(self.session.shown, self.session.status())
+        for watcher in self._everybody():
+            watcher.changed()
+
+    def _everybody(self) -> list[Watcher]:
+        with self._lock:
+            return list(self._watchers)

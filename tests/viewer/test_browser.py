@@ -1,0 +1,457 @@
+"""The page in a real browser: live, as a replay, by mouse, by keyboard and on a phone."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from scenarios import scenario
+from shoal.drawing.words import estimate_text
+from shoal.run.simulate import simulate
+from shoal.scenario.load import read_table
+
+pytest.importorskip("starlette", reason="the viewer's libraries are not installed")
+playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+
+from shoal.viewer.replay import replay_page  # noqa: E402
+from shoal.viewer.server import page_app, serving, watching  # noqa: E402
+from shoal.viewer.session import Session  # noqa: E402
+
+CHROMIUM = [Path(path) for path in ("/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome")]
+DESK = {"width": 1280, "height": 720}
+PHONE = {"width": 390, "height": 844}
+SHOWN = "Array.from(new Uint8Array(shoal.frame()))"  # the bytes of the frame shown
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with playwright.sync_playwright() as engine:
+        own = Path(engine.chromium.executable_path)
+        found = [path for path in [own, *CHROMIUM] if path.exists()]
+        if not found:
+            pytest.skip("no chromium is installed")
+        arguments = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
+        browser = engine.chromium.launch(executable_path=str(found[0]), args=arguments)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def address():
+    """A run of oceans2020 that plays."""
+    with watching(Session([read_table("oceans2020")])) as where:
+        yield where
+
+
+@pytest.fixture(scope="module")
+def record():
+    return simulate(scenario(changes={"steps": 1000}), every=10)
+
+
+@pytest.fixture(scope="module")
+def replay(record, tmp_path_factory):
+    """A file that plays the record."""
+    file = tmp_path_factory.mktemp("replay") / "run.html"
+    file.write_text(replay_page(record), encoding="utf-8")
+    return file
+
+
+@pytest.fixture
+def open_page(browser):
+    """Open an address in a browser of its own; gives the page, which says at the end whether all went well."""
+    contexts, told = [], []
+
+    def open_(address, viewport=DESK, **options):
+        context = browser.new_context(viewport=viewport, **options)
+        contexts.append(context)
+        page = context.new_page()
+        page.set_default_timeout(60_000)
+        page.on("pageerror", lambda error: told.append(str(error)))
+        page.on("console", lambda message: told.append(message.text) if message.type in ("error", "warning") else None)
+        page.goto(address)
+        page.wait_for_function("() => window.shoal && shoal.step() >= 0")
+        return page
+
+    yield open_
+    for context in contexts:
+        context.close()
+    assert told == []
+
+
+def pause(page):
+    page.get_by_role("button", name="Pause").click()
+    page.wait_for_function("() => !shoal.playing()")
+
+
+def play(page):
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_function("() => shoal.playing()")
+
+
+def slide(page, name, key, times):
+    slider = page.get_by_role("slider", name=name)
+    slider.focus()
+    for _ in range(times):
+        slider.press(key)
+
+
+def first_living_agent(page):
+    """Where on the page the first agent that is there is drawn [px]."""
+    x, y = page.evaluate(
+        """() => {
+            const view = new DataView(shoal.frame());
+            const [agents, targets] = [view.getUint32(8, true), view.getUint32(12, true)];
+            const flags = 84 + 22 * agents + 8 * targets;
+            const agent = [...Array(agents).keys()].find((each) => view.getUint8(flags + each) & 2);
+            return [view.getFloat32(84 + 4 * agent, true), view.getFloat32(84 + 4 * (agents + agent), true)];
+        }"""
+    )
+    return place(page, x, y)
+
+
+def place(page, x, y):
+    """Where on the page a point of the arena [m] is drawn [px]."""
+    box = page.locator("canvas").first.bounding_box()
+    to = page.evaluate("([x, y]) => shoal.place(x, y)", [x, y])
+    return box["x"] + to[0], box["y"] + to[1]
+
+
+class TestWatching:
+    def test_the_run_goes_on_by_itself_and_nothing_complains(self, open_page, address):
+        page = open_page(address)
+        first = page.evaluate("shoal.step()")
+        page.wait_for_function("step => shoal.step() > step", arg=first)
+        assert page.evaluate("shoal.agents()") == 50
+        assert page.get_by_role("heading", name="Time on target").is_visible()
+
+    def test_pause_really_stops_the_steps(self, open_page, address):
+        page = open_page(address)
+        pause(page)
+        before = page.evaluate("shoal.step()")
+        page.wait_for_timeout(500)
+        assert page.evaluate("shoal.step()") == before
+        play(page)
+        page.wait_for_function("step => shoal.step() > step", arg=before)
+
+    def test_one_step_is_one_step(self, open_page, address):
+        page = open_page(address)
+        pause(page)
+        before = page.evaluate("shoal.step()")
+        page.get_by_role("button", name="One step forward").click()
+        page.wait_for_function("step => shoal.step() === step", arg=before + 1)
+
+    def test_agents_that_hear_fewer_others_have_fewer_links(self, open_page, address):
+        page = open_page(address)
+        pause(page)
+        many = page.evaluate("shoal.links()")
+        slide(page, "Neighbors heard, k", "ArrowLeft", 15)
+        page.wait_for_function("many => shoal.links() < many / 2", arg=many)
+        slide(page, "Neighbors heard, k", "ArrowRight", 15)
+        page.wait_for_function("many => shoal.links() > many / 2", arg=many)
+
+    def test_a_buoy_that_is_clicked_with_the_tool_is_gone(self, open_page, address):
+        page = open_page(address)
+        pause(page)
+        before = page.evaluate("shoal.agents()")
+        page.keyboard.press("3")
+        page.mouse.click(*first_living_agent(page))
+        page.wait_for_function("before => shoal.agents() === before - 1", arg=before)
+        page.get_by_text("1 not there").wait_for()
+
+    def test_a_click_on_empty_water_adds_a_buoy(self, open_page, address):
+        page = open_page(address)
+        pause(page)
+        before = page.evaluate("shoal.agents()")
+        page.keyboard.press("4")
+        page.mouse.click(*place(page, -8.0, 8.0))
+        page.wait_for_function("before => shoal.agents() === before + 1", arg=before)
+
+    def test_a_target_can_be_dragged(self, open_page, address):
+        page = open_page(address)
+        pause(page)
+        page.keyboard.press("2")
+        page.mouse.move(*place(page, 0.0, 0.0))
+        page.mouse.down()
+        page.mouse.move(*place(page, 5.0, -4.0), steps=4)
+        page.mouse.up()
+        page.wait_for_function(
+            """() => {
+                const view = new DataView(shoal.frame());
+                const begin = 84 + 20 * view.getUint32(8, true);
+                const [x, y] = [view.getFloat32(begin, true), view.getFloat32(begin + 4, true)];
+                return Math.hypot(x - 5, y + 4) < 0.2;
+            }"""
+        )
+
+    def test_the_past_comes_back_to_the_byte(self, open_page, address):
+        page = open_page(address)
+        pause(page)
+        step, shown = page.evaluate("shoal.step()"), page.evaluate(SHOWN)
+        for _ in range(5):
+            page.keyboard.press("ArrowRight")
+        page.wait_for_function("step => shoal.step() === step", arg=step + 5)
+        assert page.evaluate(SHOWN) != shown
+        for _ in range(5):
+            before = page.evaluate("shoal.step()")
+            page.keyboard.press("ArrowLeft")
+            page.wait_for_function("before => shoal.step() < before", arg=before)
+        assert page.evaluate("shoal.step()") == step
+        assert page.evaluate(SHOWN) == shown
+
+    def test_the_past_cannot_be_changed_and_the_page_says_so(self, open_page, address):
+        page = open_page(address)
+        pause(page)
+        page.keyboard.press("Home")
+        page.get_by_text("This is the past.").wait_for()
+        assert page.get_by_role("slider", name="Neighbors heard, k").is_disabled()
+        page.keyboard.press("End")
+        page.get_by_text("This is the past.").wait_for(state="hidden")
+
+    def test_means_of_the_past_say_when_they_began(self, open_page, address):
+        page = open_page(address)
+        page.wait_for_function("() => shoal.step() > 0")
+        pause(page)
+        step = page.evaluate("shoal.step()")
+        slide(page, "Neighbors heard, k", "ArrowLeft", 1)
+        page.get_by_text(f"since step {step}").first.wait_for()
+        page.get_by_role("slider", name="Step shown").fill("0")
+        page.get_by_text("share of steps").wait_for()
+
+    def test_charts_of_a_page_opened_late_begin_where_those_of_the_first_do(self, open_page, address):
+        first = open_page(address)
+        first.wait_for_function("() => shoal.step() >= 10")
+        late = open_page(address)
+        assert late.evaluate("shoal.charted()") == 0
+        late.reload()
+        late.wait_for_function("() => window.shoal && shoal.step() >= 10")
+        assert late.evaluate("shoal.charted()") == 0
+
+    def test_two_browsers_watch_the_same_run(self, open_page, address):
+        one, two = open_page(address), open_page(address)
+        pause(one)
+        two.wait_for_function("() => !shoal.playing()")
+        two.wait_for_function("step => shoal.step() === step", arg=one.evaluate("shoal.step()"))
+        assert one.evaluate(SHOWN) == two.evaluate(SHOWN)
+        play(two)
+        one.wait_for_function("() => shoal.playing()")
+
+    def test_a_malformed_message_is_refused_and_changes_nothing(self, open_page, address):
+        page = open_page(address)
+        answer = page.evaluate(
+            """async () => {
+                const socket = new WebSocket(`ws://${location.host}/live`);
+                await new Promise((opened) => (socket.onopen = opened));
+                socket.send('{"do": "steer"');
+                return await new Promise((answered) => {
+                    socket.onmessage = ({data}) => {
+                        if (typeof data === "string" && data.includes('"error"')) answered(JSON.parse(data));
+                    };
+                });
+            }"""
+        )
+        assert answer["type"] == "error"
+        first = page.evaluate("shoal.step()")
+        page.wait_for_function("step => shoal.step() > step", arg=first)
+
+    def test_a_page_from_elsewhere_is_not_let_in(self, browser, address):
+        with serving(page_app("<p>elsewhere</p>")) as elsewhere:
+            context = browser.new_context()
+            page = context.new_page()
+            page.goto(elsewhere)
+            opened = page.evaluate(
+                """url => new Promise((done) => {
+                    const socket = new WebSocket(url);
+                    socket.onopen = () => done(true);
+                    socket.onclose = () => done(false);
+                })""",
+                address.replace("http", "ws") + "live",
+            )
+            context.close()
+        assert opened is False
+
+
+class TestComparing:
+    def test_two_runs_share_their_time_and_stand_side_by_side(self, open_page):
+        other = read_table("oceans2020")
+        other["network"]["neighbors"] = 5
+        with watching(Session([read_table("oceans2020"), other])) as address:
+            page = open_page(address)
+            page.get_by_role("region", name="Run B").wait_for()
+            left, right = (page.get_by_role("region", name=f"Run {run}").bounding_box() for run in "AB")
+            assert left["y"] == right["y"]
+            assert left["x"] + left["width"] <= right["x"]
+            pause(page)
+            page.wait_for_timeout(300)
+            moments = page.locator(".moment").all_inner_texts()
+            assert len({moment.split(" · ")[0] for moment in moments}) == 1
+            assert page.get_by_text("A: k = 20 · B: k = 5").is_visible()
+
+
+class TestALostEngine:
+    def test_is_said_plainly_and_can_be_tried_again(self, browser):
+        with watching(Session([read_table("oceans2020")])) as address:
+            context = browser.new_context(viewport=DESK)
+            page = context.new_page()
+            page.goto(address)
+            page.wait_for_function("() => window.shoal && shoal.step() >= 0")
+        alert = page.get_by_role("alert")
+        alert.get_by_text("Is shoal watch still running?").wait_for()
+        assert not page.evaluate("shoal.playing()")
+        alert.get_by_role("button", name="Try again").click()
+        page.get_by_text("The engine does not answer.").wait_for()
+        with watching(Session([read_table("oceans2020")]), port=int(address.rstrip("/").rpartition(":")[2])):
+            alert.get_by_role("button", name="Try again").click()
+            page.wait_for_function("() => shoal.playing()")
+            assert not page.get_by_role("alert").is_visible()
+            context.close()
+
+
+class TestARecording:
+    def test_can_be_watched_and_not_changed(self, open_page):
+        with watching(Session([read_table("oceans2020")], limit=100_000)) as address:
+            page = open_page(address)
+            page.get_by_text("A record is being written").wait_for()
+            assert page.get_by_role("slider", name="Target speed").is_disabled()
+            assert page.get_by_role("button", name="Restart", exact=True).is_disabled()
+            pause(page)
+
+
+class TestAReplay:
+    def test_opens_from_a_file_without_any_network(self, open_page, replay):
+        page = open_page(replay.as_uri(), offline=True)
+        asked = []
+        page.on("request", lambda request: asked.append(request.url))
+        play(page)
+        page.wait_for_function("() => shoal.step() > 100")
+        assert asked == []
+
+    def test_shows_the_metrics_of_the_record(self, open_page, replay, record):
+        page = open_page(replay.as_uri())
+        rows = page.locator("#metrics tbody tr")
+        assert rows.count() > 2
+        for row in rows.all():
+            words = f"{row.locator('.mean').inner_text()} {row.locator('.interval').inner_text()}".strip()
+            assert words == estimate_text(record.estimate(row.get_attribute("data-metric")))
+
+    def test_an_earlier_frame_comes_back_to_the_byte(self, open_page, replay):
+        page = open_page(replay.as_uri())
+        first = page.evaluate(SHOWN)
+        page.keyboard.press("End")
+        page.wait_for_function("() => shoal.step() === 990")
+        assert page.evaluate(SHOWN) != first
+        page.get_by_role("slider", name="Step shown").fill("0")
+        page.wait_for_function("() => shoal.step() === 0")
+        assert page.evaluate(SHOWN) == first
+
+    def test_names_are_text_whatever_they_are(self, open_page, tmp_path):
+        name = "<img src=x onerror=alert(1)>"
+        file = tmp_path / "run.html"
+        file.write_text(replay_page(simulate(scenario(changes={"steps": 20, "name": name}))), encoding="utf-8")
+        page = open_page(file.as_uri())
+        assert page.locator("#name").inner_text() == name
+        assert page.locator("img").count() == 0
+
+
+class TestEveryScreen:
+    @pytest.mark.parametrize("viewport", [DESK, PHONE], ids=["desk", "phone"])
+    @pytest.mark.parametrize("scheme", ["light", "dark"])
+    def test_nothing_sticks_out_sideways(self, open_page, address, viewport, scheme):
+        page = open_page(address, viewport, color_scheme=scheme)
+        page.get_by_role("slider", name="Target speed").wait_for()
+        assert page.evaluate("document.documentElement.scrollWidth") == viewport["width"]
+
+    def test_every_control_has_a_name(self, open_page, address):
+        page = open_page(address)
+        page.locator("summary").click()
+        controls = page.locator("button:visible, input:visible, select:visible, canvas:visible")
+        assert controls.count() > 20
+        nameless = controls.evaluate_all(
+            """all => all.filter((each) => !(each.getAttribute("aria-label") || each.innerText ||
+                [...(each.labels ?? [])].some((label) => label.innerText))).map((each) => each.outerHTML)"""
+        )
+        assert nameless == []
+
+    def test_the_dark_page_can_be_made_light(self, open_page, address):
+        page = open_page(address, color_scheme="dark")
+        dark = page.evaluate("getComputedStyle(document.body).backgroundColor")
+        page.keyboard.press("d")
+        assert page.evaluate("getComputedStyle(document.body).backgroundColor") != dark
+
+    def test_the_keys_are_listed_on_the_page(self, open_page, address):
+        page = open_page(address)
+        page.keyboard.press("?")
+        page.get_by_role("dialog").get_by_text("play, pause").wait_for()
+        page.keyboard.press("Escape")
+        page.get_by_role("dialog").wait_for(state="hidden")
+
+    def test_touch_removes_a_buoy_too(self, open_page, address):
+        page = open_page(address, PHONE, has_touch=True)
+        pause(page)
+        before = page.evaluate("shoal.agents()")
+        page.locator("label", has_text="Remove").tap()
+        page.evaluate("scrollTo(0, 0)")
+        page.touchscreen.tap(*first_living_agent(page))
+        page.wait_for_function("before => shoal.agents() === before - 1", arg=before)
+
+
+def test_frames_of_the_page_are_those_of_the_engine(open_page, replay, record):
+    """Positions on the water are the record's, to single precision."""
+    page = open_page(replay.as_uri())
+    page.keyboard.press("End")
+    page.wait_for_function("() => shoal.step() === 990")
+    x = json.loads(page.evaluate("JSON.stringify(Array.from(new Float32Array(shoal.frame().slice(84, 84 + 200))))"))
+    kept = next(iter(record.trajectories.values()))
+    assert x == pytest.approx(list(kept.x[-1]), rel=1e-6)
+
+
+class TestKeyboard:
+    """Fields take text, and Tab leads through all controls (WCAG 2.1.1, 2.1.2)."""
+
+    CONTROLS = """() => [...document.querySelectorAll("button, input, select, summary, a[href], [tabindex]")]
+        .filter((each) => each.checkVisibility() && !each.matches(":disabled") && each.tabIndex >= 0)
+        .map((each) => each.type === "radio" ? `radio ${each.name}` : (each.dataset.stop ??= String(Math.random())))"""
+    FOCUSED = """() => document.activeElement.type === "radio"
+        ? `radio ${document.activeElement.name}` : document.activeElement.dataset.stop ?? null"""
+
+    def test_a_field_takes_what_is_typed_and_lets_tab_go(self, address, open_page):
+        page = open_page(address)
+        pause(page)
+        step = page.evaluate("shoal.step()")
+        seed = page.locator("#seed")
+        seed.click()
+        for keys, value in (("Control+a", "1"), ("4", "4"), ("2", "42"), ("ArrowUp", "43"), ("Backspace", "4")):
+            page.keyboard.press(keys)
+            assert seed.input_value() == value
+        assert page.evaluate("shoal.step()") == step  # digits and arrows are the field's, not the page's
+        page.keyboard.press("Tab")
+        assert not seed.evaluate("field => field === document.activeElement")
+        page.keyboard.press("Shift+Tab")
+        assert seed.evaluate("field => field === document.activeElement")
+        page.keyboard.press("Enter")
+        page.wait_for_function("() => document.getElementById('about').innerText.includes('seed 4')")
+
+    def test_every_number_field_does(self, address, open_page):
+        page = open_page(address)
+        pause(page)
+        page.locator("summary", has_text="Parameters").click()
+        fields = page.locator("input[type=number]:visible")
+        assert fields.count() > 5
+        for number in range(fields.count()):
+            field = fields.nth(number)
+            field.focus()
+            page.keyboard.press("Control+a")
+            page.keyboard.type("1")
+            assert field.input_value() == "1"
+
+    def test_tab_leads_through_all_controls_and_out(self, address, open_page):
+        page = open_page(address)
+        pause(page)
+        page.locator("summary", has_text="Parameters").click()
+        controls = set(page.evaluate(self.CONTROLS))
+        page.evaluate("document.activeElement.blur()")
+        reached = set()
+        for _ in range(2 * len(controls)):
+            page.keyboard.press("Tab")
+            reached.add(page.evaluate(self.FOCUSED))
+        assert len(controls) > 20
+        assert controls <= reached
