@@ -11,6 +11,7 @@ import pytest
 from shoal.tracks import crash
 from shoal.tracks.crash import is_safe
 
+
 @pytest.fixture(params=["fork", "other threads", "no fork"])
 def situation(request, monkeypatch):
     """In each of which a call is tried."""
