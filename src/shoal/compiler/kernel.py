@@ -22,6 +22,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
+from shoal.compiler.installed import offered_sources
 from shoal.compiler.private import make_private
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -140,10 +141,12 @@ def _shared_folder() -> Path:
 
 @cache
 def sources_hash() -> str:
-    """First 16 hex digits of a hash over every kernel source and the compiler's version."""
+    """First 16 hex digits of a hash over every kernel source, installed packages' too, and the compiler's version."""
     digest = hashlib.sha256(numba.__version__.encode())
     root = Path(__file__).parent.parent
     for name in _COMPILED_FOLDERS:
         for source in sorted((root / name).rglob("*.py")):
             digest.update(source.read_bytes())
+    for text in offered_sources():
+        digest.update(text)
     return digest.hexdigest()[:16]

@@ -37,6 +37,10 @@ class StrategyError(ShoalError):
     """A strategy that cannot be found, loaded or compiled."""
 
 
+class PluginError(ShoalError):
+    """An installed package that offers Shoal something, such as a metric, which cannot be used."""
+
+
 class RecordError(ShoalError):
     """A record that cannot be written or read."""
 
