@@ -10,14 +10,15 @@ import sys
 
 import pytest
 
+import shoal
 from commands import wait_until
 from shoal.core.errors import RecordError, ScenarioError
+from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.design import Design, grid
 from shoal.experiments.executors import in_threads
-from shoal.experiments.results import aggregate, load_results, read_rows, seal
+from shoal.experiments.results import aggregate, read_rows, seal
 from shoal.experiments.store import Store
 from shoal.experiments.sweep import Stop, sweep
-from shoal.version import RESULTS_VERSION
 
 DESIGN = Design("oceans2020", tuple(grid({"neighbors": [10, 30], "fast": [0, 15]})), 2)
 SHORT = {"steps": 300}
@@ -196,7 +197,7 @@ class TestStore:
     def test_results_load_as_a_data_frame(self, tmp_path):
         pytest.importorskip("pandas", reason="load_results needs pandas: pip install '.[sweep]'")
         sweep(DESIGN, tmp_path, changes=SHORT)
-        frame = load_results(tmp_path)
+        frame = shoal.load_results(tmp_path)
         assert len(frame) == 8
         assert frame.groupby("fast").time_on_target.count().to_dict() == {0: 4, 15: 4}
 

@@ -14,13 +14,13 @@ import numpy as np
 
 from shoal.core.errors import RecordError, reason_of
 from shoal.core.files import WholeFolder
+from shoal.core.version import RESULTS_VERSION
 from shoal.metrics.summary import Facts
 from shoal.metrics.tally import Tally
 from shoal.record.arrays import check_frames, check_trajectory, read_tallies, sum_of_file
 from shoal.record.content import FORMAT, RecordContent, read_content, sum_of_content
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory, TrajectoryWriter
-from shoal.version import RESULTS_VERSION
 
 
 class RecordFolder:
