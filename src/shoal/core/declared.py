@@ -11,7 +11,7 @@ from importlib.metadata import EntryPoint
 from types import ModuleType
 from typing import Any, Generic, Protocol, TypeVar
 
-from shoal.compiler.installed import offers
+from shoal.compiler.installed import offers, package_of
 from shoal.core.errors import PluginError, ShoalError
 
 
@@ -71,7 +71,7 @@ def import_marked(folder: str, mark: str) -> list[ModuleType]:
 
 def _of_package(name: str, entries: list[EntryPoint], mark: str, kind: type[Kind], builtin: bool) -> Declared[Kind]:
     what = mark.lower()
-    packages = sorted({_package(entry) for entry in entries})
+    packages = sorted({package_of(entry) for entry in entries})
     if len(entries) > 1:
         raise PluginError(f"{what} {name!r}", f"is offered by {' and '.join(packages)}", "uninstall all but one")
     entry, package = entries[0], packages[0]
@@ -95,7 +95,3 @@ def _load(entry: EntryPoint, package: str) -> Any:
     except (Exception, SystemExit) as error:
         reason = error.args[1] if isinstance(error, ShoalError) else f"{type(error).__name__}: {error}"
         raise PluginError(package, f"{entry.value} cannot be imported: {reason}", "fix or uninstall it") from error
-
-
-def _package(entry: EntryPoint) -> str:
-    return f"package {entry.dist.name!r}" if entry.dist else f"entry point {entry.value!r}"

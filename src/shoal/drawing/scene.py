@@ -10,7 +10,7 @@ from shoal.drawing.discs import Halos, SensorDiscs
 from shoal.drawing.links import Links
 from shoal.drawing.targets import TargetMarks
 from shoal.drawing.trails import AgentTrails, TargetTrail, draw_whole_path, target_points
-from shoal.metrics.summary import Facts
+from shoal.metrics.contract import Facts
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 

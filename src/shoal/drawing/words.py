@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 from shoal.core.text import plain
+from shoal.metrics.summary import METRICS
 from shoal.record.record import Record
 from shoal.record.statistics import Estimate
 from shoal.scenario.choices import degree_text, strategy_text
@@ -95,8 +96,8 @@ def metric_phrases(record: Record) -> list[str]:
     """Key metrics, mean [95 % interval]."""
     engaged = record.estimate("engaged")
     return [
-        f"time on target {estimate_text(record.estimate('time_on_target'))}",
-        f"velocity fluctuation Ξ {estimate_text(record.estimate('xi'))}",
+        f"{METRICS['time_on_target'].words} {estimate_text(record.estimate('time_on_target'))}",
+        f"{METRICS['xi'].words.replace('Xi', 'Ξ')} {estimate_text(record.estimate('xi'))}",
         f"engaged {estimate_text(engaged)}" + (" agents" if math.isfinite(engaged.mean) else ""),
     ]
 

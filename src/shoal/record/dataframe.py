@@ -6,7 +6,10 @@ import numpy as np
 
 from shoal.core.errors import MissingExtraError, UnknownNameError
 from shoal.metrics.each_target import each_target
-from shoal.metrics.summary import METRICS, fleet_fluctuation, fleet_power, fleet_stationary
+from shoal.metrics.effort import fleet_power
+from shoal.metrics.heading_bearing import fleet_stationary
+from shoal.metrics.summary import METRICS
+from shoal.metrics.velocity_fluctuation import fleet_fluctuation
 from shoal.record.trajectory import Trajectory
 
 if TYPE_CHECKING:

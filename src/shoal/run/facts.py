@@ -1,7 +1,7 @@
 """What metrics need to know of a scenario."""
 
 from shoal.core.messages import REPORT_BYTES
-from shoal.metrics.summary import Facts
+from shoal.metrics.contract import Facts
 from shoal.scenario.crew import crew_of
 from shoal.scenario.schema import Scenario
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from shoal.metrics.tally import BINS
+from shoal.metrics.heading_bearing import BINS
 
 FORMAT = 1
 RECENT = 1000  # steps of the shorter mean

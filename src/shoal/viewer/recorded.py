@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.core.agents import Floats
-from shoal.metrics.summary import METRICS, evaluate
+from shoal.metrics.summary import INSTALLED, METRICS, evaluate
 from shoal.metrics.tally import new_tally
 from shoal.record.frames import degrees_of, watching
 from shoal.record.record import Record
@@ -14,22 +14,15 @@ from shoal.viewer.frame import RECENT, Gauges, pack
 from shoal.viewer.meter import Meter
 from shoal.viewer.scene import REPULSION, scene_of
 
-_LABELS = {
-    "time_on_target": "time on target",
-    "xi": "velocity fluctuation Xi",
-    "engaged": "engaged agents",
-    "stationary": "stationary agents",
-    "response": "response",
-    "first_detection": "first detection",
-    "losses": "target lost",
-    "reacquisition": "time to find it again",
-    "coverage": "coverage",
-}
+_SHOWN = (  # besides those of installed packages
+    "time_on_target", "xi", "engaged", "stationary", "response",
+    "first_detection", "losses", "reacquisition", "coverage",
+)  # fmt: skip
 
 
 def recorded_scene(record: Record, run: int) -> dict[str, Any]:
     """The scene of a record, with its metrics, their intervals, and their course over the batches of one run."""
-    estimates = {name: record.estimate(name) for name in _LABELS}
+    estimates = {name: record.estimate(name) for name in (*_SHOWN, *INSTALLED)}
     tally, facts = record.tallies[run], record.facts
     starts = np.concatenate([[0], np.cumsum(tally.batch_steps)[:-1]])
     return {
@@ -37,7 +30,7 @@ def recorded_scene(record: Record, run: int) -> dict[str, Any]:
         "metrics": [
             {
                 "name": name,
-                "label": _LABELS[name],
+                "label": METRICS[name].words,
                 "unit": METRICS[name].unit,
                 "mean": value.mean,
                 "low": value.ci95[0] if value.ci95 else None,

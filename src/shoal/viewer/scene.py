@@ -5,7 +5,7 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from shoal.metrics.summary import Facts
+from shoal.metrics.contract import Facts
 from shoal.scenario.strategy_choice import params_model
 from shoal.strategies import Strategy
 from shoal.strategies.contract import RESERVED
