@@ -1,5 +1,6 @@
 """How hypothesis searches, and who compiles."""
 
+import signal
 from contextlib import suppress
 
 from hypothesis import HealthCheck, settings
@@ -19,7 +20,14 @@ settings.load_profile("repeatable")
 
 
 def pytest_configure(config):
-    """Fill the engine's cache before xdist starts its workers: else each compiles the same, half as fast."""
+    """Let children hear Ctrl-C, and fill the engine's cache before xdist starts its workers.
+
+    A shell that starts the tests in the background has them, and all their children, ignore SIGINT. Workers that find
+    no cache would each compile the same, half as fast.
+    """
+    with suppress(ValueError):  # not the main thread
+        if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
     if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
         with suppress(Exception):  # what is wrong with the engine, the tests will tell
             from shoal.run.simulation import Simulation

@@ -18,11 +18,10 @@ def path_of(target, steps=2000, start=None, heading=None, buoys=FAR, seed=1, **c
     simulation = Simulation(scenario("oceans2020", {**still, **chosen, **changes}))
     with simulation.edit() as now:
         now.swarm.x[: len(buoys)], now.swarm.y[: len(buoys)] = np.transpose(buoys)
-    record = simulation.targets[0]
-    if start is not None:
-        record.x, record.y = start
-    if heading is not None:
-        record.heading_x, record.heading_y = np.cos(heading), np.sin(heading)
+        if start is not None:
+            now.targets["x"][0], now.targets["y"][0] = start
+        if heading is not None:
+            now.targets["heading_x"][0], now.targets["heading_y"][0] = np.cos(heading), np.sin(heading)
     frames = simulation.advance(steps, every=1)
     return frames.target_x[:, 0] + 1j * frames.target_y[:, 0], frames.target_present[:, 0]
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from shoal.core.version import RESULTS_VERSION
 from shoal.strategies import CATALOGUE
-from shoal.version import RESULTS_VERSION
 
 NOTEBOOKS = sorted((Path(__file__).resolve().parents[1] / "docs").rglob("*.ipynb"))
 EXTRAS = ("matplotlib", "pandas", "scipy.stats")

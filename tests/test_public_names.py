@@ -32,7 +32,7 @@ def test_simulate_is_a_function_after_every_module_was_imported():
 def test_plot_is_there_at_first_use_and_matplotlib_at_the_first_figure():
     script = (
         "import sys, shoal\n"
-        "assert 'shoal.plot' not in sys.modules\n"
+        "assert 'shoal.study.plot' not in sys.modules\n"
         "assert callable(shoal.plot.snapshot)\n"
         "assert 'matplotlib' not in sys.modules"
     )

@@ -10,12 +10,12 @@ import pytest
 
 from shoal.cli.main import run_command
 from shoal.core.errors import RecordError
+from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.results import aggregate, read_rows
 from shoal.metrics.summary import METRICS
 from shoal.record.files import open_record, save_record
 from shoal.run.simulate import simulate
 from shoal.scenario.load import load
-from shoal.version import RESULTS_VERSION
 
 DATA = Path(__file__).parent / "data"
 VERSIONS = sorted(int(each.name.removeprefix("results-v")) for each in DATA.glob("results-v*"))

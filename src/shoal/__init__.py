@@ -13,6 +13,7 @@ Record, open_record, save_record, load_results what runs leave behind
 list_strategies, list_metrics, list_presets    what there is
 strategy, kernel, uniform, normal              to write a strategy, with the units
 Meters, MetersPerSecond, Seconds, Degrees      of its parameters
+Measurement, Sum, Metric                       to write a metric
 plot                                           every figure, in one line each
 Buoy, Reading, Report, briefing                to decide on board, without an engine
 ShoalError                                     base of every error raised on purpose
@@ -23,17 +24,16 @@ ShoalError                                     base of every error raised on pur
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from shoal.version import VERSION as __version__  # noqa: N811 (the name every package has)
+from shoal.core.version import VERSION as __version__  # noqa: N811 (the name every package has)
 
 if TYPE_CHECKING:
-    from shoal import plot
     from shoal.buoy.buoy import Buoy
     from shoal.compiler.kernel import kernel
     from shoal.core.draws import normal, uniform
     from shoal.core.errors import ShoalError
     from shoal.core.messages import Reading, Report
     from shoal.core.units import Degrees, Meters, MetersPerSecond, Seconds
-    from shoal.experiments.results import load_results
+    from shoal.metrics.contract import Measurement, Metric, Sum
     from shoal.paper.reproduce import reproduce
     from shoal.record.files import open_record, save_record
     from shoal.record.record import Record
@@ -43,9 +43,11 @@ if TYPE_CHECKING:
     from shoal.scenario.load import load, presets, to_toml
     from shoal.scenario.schema import Scenario
     from shoal.strategies import strategy
+    from shoal.study import plot
     from shoal.study.check import check
     from shoal.study.compared import compare
     from shoal.study.listing import list_metrics, list_presets, list_strategies
+    from shoal.study.results import load_results
     from shoal.study.swept import sweep
 
 _HOMES = {
@@ -55,7 +57,7 @@ _HOMES = {
     "shoal.core.messages": ("Reading", "Report"),
     "shoal.compiler.kernel": ("kernel",),
     "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Seconds"),
-    "shoal.experiments.results": ("load_results",),
+    "shoal.metrics.contract": ("Measurement", "Metric", "Sum"),
     "shoal.paper.reproduce": ("reproduce",),
     "shoal.record.files": ("open_record", "save_record"),
     "shoal.record.record": ("Record",),
@@ -68,6 +70,7 @@ _HOMES = {
     "shoal.study.check": ("check",),
     "shoal.study.compared": ("compare",),
     "shoal.study.listing": ("list_metrics", "list_presets", "list_strategies"),
+    "shoal.study.results": ("load_results",),
     "shoal.study.swept": ("sweep",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
@@ -75,8 +78,10 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
     "Buoy",
     "Degrees",
+    "Measurement",
     "Meters",
     "MetersPerSecond",
+    "Metric",
     "Reading",
     "Record",
     "Report",
@@ -84,6 +89,7 @@ __all__ = [
     "Seconds",
     "ShoalError",
     "Simulation",
+    "Sum",
     "__version__",
     "briefing",
     "check",
@@ -117,7 +123,7 @@ if not TYPE_CHECKING:  # type checkers shall go on to know what there is
     def __getattr__(name: str) -> Any:
         """Import on first use: `import shoal` and `shoal --help` load neither compiler nor plots."""
         if name == "plot":
-            return import_module("shoal.plot")
+            return import_module("shoal.study.plot")
         if name not in _HOME_OF:
             from shoal.core.errors import no_attribute
 

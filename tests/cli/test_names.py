@@ -112,9 +112,9 @@ class TestControl:
 class TestFigures:
     def test_hold_names_as_text(self, renamed, capsys):
         pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install '.[plots]'")
-        from shoal.plot import summary
+        from shoal import plot
 
-        figure = summary(open_record(renamed("$\\frac{", "_quiet")))
+        figure = plot.summary(open_record(renamed("$\\frac{", "_quiet")))
         legends = [text.get_text() for axes in figure.axes for legend in [axes.get_legend()] if legend
                    for text in legend.get_texts()]  # fmt: skip
         assert figure.texts[0].get_text() == "$\\frac{"

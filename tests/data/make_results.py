@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 from shoal.cli.main import run_command
-from shoal.version import RESULTS_VERSION
+from shoal.core.version import RESULTS_VERSION
 
 HERE = Path(__file__).parent
 TINY = str(HERE / "tiny.toml")

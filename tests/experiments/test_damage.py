@@ -11,6 +11,7 @@ import pytest
 
 from damage import NASTY, hurt_bytes, hurt_json, same_json
 from shoal.core.errors import RecordError
+from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.cells import base_table, make_cells
 from shoal.experiments.design import Design, grid
 from shoal.experiments.replicate import failed_row
@@ -18,7 +19,6 @@ from shoal.experiments.results import aggregate, read_rows, to_csv
 from shoal.experiments.store import Store
 from shoal.experiments.sweep import sweep
 from shoal.metrics.summary import METRICS
-from shoal.version import RESULTS_VERSION
 
 DATA = Path(__file__).parents[1] / "data"
 DESIGN = Design(str(DATA / "tiny.toml"), tuple(grid({"neighbors": [1, 2, 3]})), 3)

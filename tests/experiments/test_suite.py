@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from shoal.core.errors import RecordError, ScenarioError
+from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.contenders import contenders
 from shoal.experiments.leaderboard import make_leaderboard, suite_hash
 from shoal.experiments.leaderboard_page import BEGIN, END, _as_markdown, page_part, standing_still, write_page
 from shoal.experiments.suite import read_suite, resized, suites
 from shoal.metrics.summary import METRICS
 from shoal.strategies import CATALOGUE
-from shoal.version import RESULTS_VERSION
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "arena.md"
 EVERYBODY = contenders(sorted(CATALOGUE))

@@ -16,11 +16,11 @@ import pytest
 from damage import hurt_bytes, hurt_json, same_json
 from shoal.cli.table import print_record
 from shoal.core.errors import RecordError
+from shoal.core.version import RESULTS_VERSION
 from shoal.record.content import sum_of_content
 from shoal.record.files import open_record
 from shoal.run.simulate import simulate
 from shoal.scenario.load import load
-from shoal.version import RESULTS_VERSION
 from shoal.viewer.replay import replay_page
 
 DATA = Path(__file__).parents[1] / "data"

@@ -1,6 +1,7 @@
 """What runs leave behind, as numbers and as JSON."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -139,9 +140,9 @@ class TestSummary:
 
     def test_of_a_run_without_a_target_has_null_for_what_cannot_be_told(self):
         record = simulate(scenario("oceans2020", {"steps": 50}))
-        for tally in record.tallies:
-            tally.present[:] = tally.on_target[:] = tally.engaged[:] = tally.histogram[:] = tally.stationary[:] = 0
-        summary = record.summary()
+        never = ("present", "on_target", "engaged", "histogram", "stationary")
+        tallies = (each._replace(**{name: 0 * getattr(each, name) for name in never}) for each in record.tallies)
+        summary = replace(record, tallies=tuple(tallies)).summary()
         assert summary["time_on_target"] == {"mean": None, "ci95": None, "runs": [None]}
         assert summary["xi"]["mean"] > 0
         json.dumps(summary, allow_nan=False)

@@ -18,8 +18,8 @@ from shoal.run.facts import facts_of
 from shoal.run.simulate import simulate
 from shoal.run.simulation import Simulation, count_frames
 
-SOON = 1.0  # [s]
-LONG = 400_000  # steps, several seconds
+SOON = 30.0  # [s] a busy machine may take that long
+LONG = 50_000_000  # steps, minutes
 
 
 def advanced(steps, changes=None, run=0):

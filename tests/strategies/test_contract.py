@@ -269,7 +269,7 @@ class TestErrors:
         ("line", "says"),
         [
             ("raise ValueError('no')", r":\d+: strategy 'drifter' raised ValueError: no"),
-            ("memory.course = 1.0", "'course' is no field of a memory"),
+            ("memory.course = 1.0", "'course' is not a field of a memory"),
             ("return 1.0", "returns two numbers"),
         ],
     )

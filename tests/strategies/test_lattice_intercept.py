@@ -13,11 +13,10 @@ def intercepting(agent, target, waypoint, near=100.0, top=1.0):
     moving = {"kind": "waypoint", "radius": REACH, "speed": SPEED, "waypoint_reach": 0.5}
     simulation = staged(("lattice-intercept", {"reach": near}), [agent, (9, 9)], top=top, changes={"targets": [moving]})
     put(simulation, [agent, (9, 9)])
-    known = simulation.targets[0]
-    known["x"], known["y"] = target
-    known["waypoint_x"], known["waypoint_y"] = waypoint
     way = np.subtract(waypoint, target) / np.hypot(*np.subtract(waypoint, target))
-    known["heading_x"], known["heading_y"] = way
+    with simulation.edit() as now:
+        for name, value in (("", target), ("waypoint_", waypoint), ("heading_", way)):
+            now.targets[f"{name}x"][0], now.targets[f"{name}y"][0] = value
     memory = simulation.minds.memory[0]
     return wanted(simulation)[0], way, np.array([memory["station_x"], memory["station_y"]])
 

@@ -1,8 +1,9 @@
 """Specification of trying what may bring the process down."""
 
+import faulthandler
+import math
 import multiprocessing
-import os
-import signal
+import threading
 import time
 
 import pytest
@@ -10,19 +11,30 @@ import pytest
 from shoal.tracks import crash
 from shoal.tracks.crash import is_safe
 
-pytestmark = pytest.mark.skipif(
-    "fork" not in multiprocessing.get_all_start_methods(), reason="this system cannot fork a process"
-)
+
+@pytest.fixture(params=["fork", "other threads", "no fork"])
+def situation(request, monkeypatch):
+    """In each of which a call is tried."""
+    done = threading.Event()
+    if request.param == "other threads":  # as zarr's, or a notebook's
+        threading.Thread(target=done.wait, daemon=True).start()
+    elif request.param == "no fork":
+        monkeypatch.setattr(multiprocessing, "get_all_start_methods", lambda: ["spawn"])
+    elif threading.active_count() > 1 or "fork" not in multiprocessing.get_all_start_methods():
+        pytest.skip("this process cannot fork: another thread runs in it")
+    yield
+    done.set()
 
 
+@pytest.mark.usefixtures("situation")
 class TestIsSafe:
     def test_what_returns_or_raises_is_safe(self):
-        assert is_safe(lambda: 1)
-        assert is_safe(lambda: 1 / 0)
+        assert is_safe(math.sqrt, 1.0)
+        assert is_safe(math.sqrt, -1.0)
 
     def test_what_crashes_is_not_and_leaves_this_process_alone(self):
-        assert not is_safe(lambda: os.kill(os.getpid(), signal.SIGSEGV))
+        assert not is_safe(faulthandler._sigsegv)
 
     def test_what_hangs_is_not(self, monkeypatch):
-        monkeypatch.setattr(crash, "LONGEST", 0.1)
-        assert not is_safe(lambda: time.sleep(60))
+        monkeypatch.setattr(crash, "LONGEST", 0.5)
+        assert not is_safe(time.sleep, 60)

@@ -6,6 +6,7 @@ from datetime import datetime, timedelta
 import numpy as np
 import pytest
 
+from shoal.tracks import csv_file as csv_file_module
 from shoal.tracks.read import read_track
 from track_files import DEGREE, csv_file, eastward, refusal
 
@@ -262,6 +263,20 @@ class TestLargeFile:
     @pytest.mark.parametrize("track_id", ["MMSI=367000007", "VesselName=SHIP 7"])
     def test_one_is_chosen(self, tmp_path, track_id):
         assert len(read_track(self.day(tmp_path), track_id=track_id).time) == 25
+
+    @pytest.mark.parametrize("enough", [500, 4321, 10**9])
+    def test_a_column_whose_name_says_nothing_is_found_early_and_counted_to_the_end(
+        self, tmp_path, monkeypatch, enough
+    ):
+        """However many rows were read before it was found, and wherever the blocks of the file end."""
+        monkeypatch.setattr(csv_file_module, "ENOUGH", enough)
+        monkeypatch.setattr(csv_file_module, "ROWS", 97)
+        monkeypatch.setattr(csv_file_module, "BLOCK", 50_000)
+        path = self.day(tmp_path)
+        path.write_text(path.read_text().replace("MMSI", "Unit").replace("VesselName", "Word"))
+        _, problem, fix = refusal(path)
+        assert "holds 400 tracks, told apart by Unit" in problem
+        assert "--track-id Unit=367000007 has the most fixes, 25" in fix
 
     def test_memory_does_not_grow_with_other_vessels(self, tmp_path):
         path = self.day(tmp_path, ships=4000, hours=12)

@@ -11,7 +11,6 @@ from shoal.core.messages import Own, Reading, Report
 from shoal.scenario.briefing import briefing, degrees, fleet_of
 from shoal.scenario.crew import Crew, crew_of
 from shoal.scenario.load import Source, load
-from shoal.scenario.strategy_errors import strategy_errors
 from shoal.world.motion import maneuvered, speed_scale
 from shoal.world.radio import degree_of, first_degree
 
@@ -82,7 +81,7 @@ class Buoy:
     def begin(self, reading: Reading) -> None:
         """Set up the memory, where the buoy lies before the first step; `decide` and `report` do so if nobody did."""
         start = reading._replace(vx=0.0, vy=0.0, on_target=False)
-        with strategy_errors(self._crew):
+        with self._crew.naming_errors():
             self._mind.begin(self._own(start, 0))
         self._begun = True
 
@@ -127,7 +126,7 @@ class Buoy:
         report = self.report(reading, step)
         me = self._own(reading, step)
         heard = self._heard(me, inbox)
-        with strategy_errors(self._crew):
+        with self._crew.naming_errors():
             try:
                 vx, vy = self._mind.decide(me, heard, step)
             except (ZeroDivisionError, OverflowError):  # compiled code would go on with infinity

@@ -8,7 +8,7 @@ from shoal.cli.output import CANNOT_PRINT, CannotPrintError, drop_stdout, guarde
 from shoal.cli.signals import exit_code, heed_signals
 from shoal.core.errors import ShoalError
 from shoal.core.text import readable
-from shoal.version import VERSION
+from shoal.core.version import VERSION
 
 BAD_INPUT = 2
 

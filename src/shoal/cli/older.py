@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from shoal.cli.progress import note
-from shoal.version import RESULTS_VERSION
+from shoal.core.version import RESULTS_VERSION
 
 if TYPE_CHECKING:
     from shoal.record.record import Record

@@ -93,7 +93,7 @@ def plot(
     """
     from shoal.drawing.files import check_figure
     from shoal.experiments.results import read_rows
-    from shoal.plot import curves, save
+    from shoal.study.plot import curves, save
 
     _tell_of(read_rows(folder)[1])
     target = figure or folder / "plot.png"

@@ -108,7 +108,7 @@ def run(
 
         print_record(record)
     if figure:
-        from shoal.plot import save, summary
+        from shoal.study.plot import save, summary
 
         save(summary(record), figure)
         note(f"figure: {figure}")

@@ -41,7 +41,7 @@ def show(
     else:
         print_record(known)
     if figure:
-        from shoal.plot import save, summary
+        from shoal.study.plot import save, summary
 
         save(summary(known), figure)
         note(f"figure: {figure}")

@@ -26,13 +26,10 @@ def load_compiler() -> None:
 
 def tell_of_compiling(scenario: "Scenario") -> None:
     """Say so if the first step will compile the engine for this strategy."""
-    from shoal.compiler.kernel import why_uncached
-    from shoal.run.compiling import engine_is_compiled, needs_compiling
+    from shoal.run.compiling import engine_is_compiled, needs_compiling, why_not_kept
     from shoal.scenario.crew import crew_of
 
     if needs_compiling(scenario):
         crew, seconds = crew_of(scenario), 5 if engine_is_compiled() else 20
-        once = "once per version of Shoal" if crew.builtin else "a file of yours is compiled every time"
-        if crew.builtin and (why := why_uncached()):
-            once = f"every time: {why}"
+        once = why_not_kept(crew) or "once per version of Shoal"
         note(f"compiling the engine for strategy {crew.name!r} (about {seconds} s, {once})")

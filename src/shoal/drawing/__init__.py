@@ -1,5 +1,5 @@
-"""Viz: records as figures, drawn without windows and without matplotlib's global state (extra: plots).
+"""Drawing: records as figures, drawn without windows and without matplotlib's global state (extra: plots).
 
-`shoal.plot` is its public face. Here are the parts: functions that draw into axes, inside `style.style()`; the page of
+`shoal.plot` is its public face. It holds the parts: functions that draw into axes, inside `style.style()`; the page of
 `summary`; a `scene` that moves from frame to frame, and the `film` of it.
 """

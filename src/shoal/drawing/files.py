@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 
 from shoal.core.errors import ShoalError
 from shoal.core.files import check_file, whole_file
+from shoal.core.version import VERSION
 from shoal.drawing.style import RC, require_matplotlib, style
-from shoal.version import VERSION
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

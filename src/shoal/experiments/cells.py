@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from shoal.core.errors import ScenarioError
+from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.design import Design, Point
 from shoal.scenario.change import change
 from shoal.scenario.edit import apply
 from shoal.scenario.load import name_of_source, scenario_from, table_of
 from shoal.scenario.schema import Scenario
-from shoal.version import RESULTS_VERSION
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from shoal.core.errors import RecordError
 from shoal.core.files import write_whole
+from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.experiments.comparison import Condition, Standing
 from shoal.experiments.comparison_words import (
     REFERENCES,
@@ -21,7 +22,6 @@ from shoal.experiments.comparison_words import (
 from shoal.experiments.contenders import LATTICE
 from shoal.experiments.leaderboard import Leaderboard
 from shoal.experiments.suite import SuiteCondition, read_suite
-from shoal.version import RESULTS_VERSION, VERSION
 
 BEGIN, END = "<!-- shoal compare: begin -->", "<!-- shoal compare: end -->"
 

@@ -9,11 +9,11 @@ from typing import Any
 
 from shoal.core.errors import MissingExtraError, ScenarioError
 from shoal.core.files import MARK, write_whole
+from shoal.core.version import VERSION
 from shoal.experiments.replicate import LIST_COLUMNS, Row
 from shoal.experiments.store import Store
 from shoal.metrics.summary import METRICS, bounds_of
 from shoal.record.statistics import estimate
-from shoal.version import VERSION
 
 _OF_A_RUN = ("run_id", "run", "seed", "scenario_hash", "status", "error", "started", "seconds")  # columns, no fields
 
@@ -67,22 +67,6 @@ def default_x(fields: Sequence[str], rows: Sequence[Row]) -> str:
         known = f"choose one of: {', '.join(fields)}" if fields else "vary one, such as --vary neighbors=10,20,30"
         raise ScenarioError("x", "no varied field is a number", known)
     return max(numeric, key=lambda name: len({row[name] for row in rows}))
-
-
-def load_results(folder: str | Path) -> Any:
-    """Return the rows of a sweep as a pandas.DataFrame, one row per run; `.set_index([...]).to_xarray()` labels them.
-
-    Raises
-    ------
-    RecordError : the folder holds no sweep
-    MissingExtraError : pandas is absent
-    """
-    try:
-        import pandas as pd
-    except ImportError:
-        raise MissingExtraError.of("pandas", "sweep", "loading results as a DataFrame") from None
-    _, rows = read_rows(folder)
-    return pd.DataFrame(rows)
 
 
 def aggregate(rows: Sequence[Row], by: Sequence[str], metrics: Sequence[str] = tuple(METRICS)) -> list[Row]:

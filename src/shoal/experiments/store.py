@@ -18,6 +18,7 @@ from uuid import uuid4
 
 from shoal.core.errors import RecordError, reason_of
 from shoal.core.files import OwnFolder
+from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.experiments.cells import Cell
 from shoal.experiments.replicate import Row
 from shoal.experiments.store_rows import (
@@ -33,7 +34,6 @@ from shoal.experiments.store_rows import (
     read_row,
     write_meta,
 )
-from shoal.version import RESULTS_VERSION, VERSION
 
 _PATIENCE = 30.0  # [s] for readers, which are quick
 

@@ -17,10 +17,10 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from shoal.core.errors import RecordError
+from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.experiments.cells import Cell
 from shoal.experiments.replicate import LIST_COLUMNS, Row
 from shoal.metrics.summary import METRICS
-from shoal.version import RESULTS_VERSION, VERSION
 
 FORMAT = 3
 IDENTITY = ("scenario", "fields", "changes", "independent", "results_version")

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.cells import Cell, base_table, make_cells
 from shoal.experiments.design import Design, Point
 from shoal.experiments.executors import Done, Executor, Task, in_threads
@@ -15,7 +16,6 @@ from shoal.experiments.replicate import Row, replicate
 from shoal.experiments.store import Store
 from shoal.metrics.summary import bounds_of
 from shoal.record.statistics import all_alike, estimate
-from shoal.version import RESULTS_VERSION
 
 FLUSH_SECONDS = 0.5  # rows are written together this often, or this many at a time
 FLUSH_ROWS = 64

@@ -13,6 +13,7 @@ import numpy as np
 
 from shoal.core.errors import RecordError, ScenarioError
 from shoal.core.files import check_folder, write_whole
+from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.paper.claims import oceans_claims
 from shoal.paper.clusters import watch_clusters
 from shoal.paper.plan import PAPERS, PRINTED, QUICK_STEPS, REFIT, SPEEDS, Plan, make_plan
@@ -23,7 +24,6 @@ from shoal.paper.running import Report, run_plan
 from shoal.paper.sensitivity import conclusion_table, peak_table
 from shoal.paper.side_claims import side_claims
 from shoal.paper.side_watch import watch_sides
-from shoal.version import RESULTS_VERSION, VERSION
 
 
 def reproduce(

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from shoal.core.errors import RecordError
 from shoal.core.messages import REPORT_BYTES
-from shoal.version import RESULTS_VERSION, VERSION
+from shoal.core.version import RESULTS_VERSION, VERSION
 
 FORMAT = 2  # 1 had no checksums
 

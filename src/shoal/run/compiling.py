@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from shoal.compiler.kernel import cache_folder, uncached
+from shoal.compiler.kernel import cache_folder, uncached, why_uncached
 from shoal.engine.rollout import begin_run, rollout
 from shoal.scenario.crew import Crew, crew_of
 from shoal.scenario.schema import Scenario
@@ -30,6 +30,14 @@ def needs_compiling(scenario: Scenario) -> bool:
 def engine_is_compiled() -> bool:
     """Whether the parts of the engine that know no strategy are in the cache."""
     return any(cache_folder().glob("compiled-*"))
+
+
+def why_not_kept(crew: Crew) -> str | None:
+    """Why the compiled engine is not kept for the next process; None if it is."""
+    if not crew.builtin:
+        return "a file of yours is compiled every time"
+    why = why_uncached()
+    return why and f"every time: {why}"
 
 
 def mark_compiled(scenario: Scenario) -> None:

@@ -15,6 +15,7 @@ import numba
 import numpy as np
 
 from shoal.core.errors import ScenarioError
+from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.metrics.tally import Tally
 from shoal.record.files import RecordFolder
 from shoal.record.record import Record
@@ -25,7 +26,6 @@ from shoal.run.simulation import Simulation, count_frames
 from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source, load
 from shoal.scenario.schema import Scenario
-from shoal.version import RESULTS_VERSION, VERSION
 
 OVERVIEW = 500  # frames of the first run kept over its whole length, if not told otherwise
 TAIL = 300  # and of its last steps, all

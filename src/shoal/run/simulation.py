@@ -12,6 +12,7 @@ from shoal.compiler.placed import Placed
 from shoal.core.agents import NEVER, Minds, as_records
 from shoal.core.errors import ScenarioError, StrategyError
 from shoal.core.text import plain
+from shoal.core.version import RESULTS_VERSION
 from shoal.engine.phases import addresses
 from shoal.engine.rollout import set_out
 from shoal.engine.stage import Frames, Run, Stage, new_frames, new_scratch
@@ -23,8 +24,6 @@ from shoal.run.compiling import entry_points
 from shoal.run.state import State, arrays_of, read_only, state_of
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
-from shoal.scenario.strategy_errors import strategy_errors
-from shoal.version import RESULTS_VERSION
 from shoal.world.placement import PLACES
 
 _set_out: Any = set_out  # kernels have no types that mypy sees
@@ -100,7 +99,7 @@ class Simulation:
 
     def begin(self) -> None:
         """Set up every agent's memory, as its strategy does before the first step."""
-        with strategy_errors(self.crew):
+        with self.crew.naming_errors():
             self._begin(self._in_place().address, self._minds, self.crew.params)
 
     def advance(self, steps: int, *, every: int | None = None, tail: int | None = None) -> Trajectory | None:
@@ -197,7 +196,7 @@ class Simulation:
         ------
         StrategyError : a position, a velocity or a sum is not finite
         """
-        with strategy_errors(self.crew):
+        with self.crew.naming_errors():
             spoiled = self._rollout(placed.address, self._minds, self.crew.params, first, last, every, tail)
         self.number = last
         if spoiled:

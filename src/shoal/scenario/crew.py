@@ -1,5 +1,6 @@
 """Which strategies a scenario's fleets follow, as the engine takes them: one, or a team of several."""
 
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Any
 
@@ -7,6 +8,7 @@ from shoal.core.errors import ScenarioError
 from shoal.scenario.schema import Scenario
 from shoal.scenario.strategy_choice import StrategyChoice
 from shoal.strategies import Strategy
+from shoal.strategies.errors import strategy_errors
 from shoal.strategies.team import MOST, depth_of, team
 
 
@@ -51,6 +53,10 @@ class Crew:
     def source(self) -> str:
         """File of the first strategy that a user wrote, or else of the first."""
         return next((each for each in self.strategies if not each.builtin), self.strategies[0]).source
+
+    def naming_errors(self) -> AbstractContextManager[None]:
+        """A context in which what a user's strategy gets wrong becomes one StrategyError that names its line."""
+        return strategy_errors(self.strategies)
 
 
 def crew_of(scenario: Scenario) -> Crew:

@@ -13,11 +13,11 @@ from shoal.experiments.replicate import Row
 from shoal.experiments.results import aggregate, seal
 from shoal.experiments.sweep import Stop
 from shoal.experiments.sweep import sweep as run_sweep
-from shoal.plot import curves
 from shoal.record.words import spread_text
 from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source, load
 from shoal.study.folder import positive, progress_of, store_folder
+from shoal.study.plot import curves
 from shoal.study.varied import Values, varied, written
 
 if TYPE_CHECKING:

@@ -12,13 +12,15 @@ from numpy.typing import NDArray
 
 from shoal.core.errors import TrackError
 from shoal.tracks import names
+from shoal.tracks.choose import choose
 from shoal.tracks.dialect import Dialect, bounded, dialect_of, open_text
 from shoal.tracks.numbers import numbers
 from shoal.tracks.table import Labels, Table
-from shoal.tracks.wanted import Wanted, column_of, refuse_several
+from shoal.tracks.wanted import SeveralTracksError, Wanted, column_of, refuse_several
 
 BLOCK = 1 << 20  # [characters]
 ROWS = 10_000  # of a block that is parsed cell by cell
+ENOUGH = 50_000  # rows, to see that there are several vehicles where no column's name says so
 MOST_VALUES = 65_000  # a column with more, most of them once, tells no tracks apart
 
 Block = tuple[list[list[str]], list[int]]  # cells and line of each row
@@ -36,7 +38,12 @@ def csv_table(path: Path, wanted: Wanted) -> Table:
     rows = _Rows(path, dialect)
     with open_text(path, dialect.encoding) as file:
         for block in _blocks(path, file, dialect, sieve):
-            rows.add(*block)
+            if sieve.open:
+                rows.add(*block)
+            else:
+                sieve.count(block[0])
+            if sieve.is_undecided and len(rows.line) >= ENOUGH:
+                sieve.decide(rows.table(sieve))
     sieve.finish()
     return rows.table(sieve)
 
@@ -49,7 +56,7 @@ class _Sieve:
 
     def __init__(self, path: Path, dialect: Dialect, wanted: Wanted) -> None:
         self.path, self.wanted = path, wanted
-        columns = dialect.columns
+        self.columns = columns = dialect.columns
         if wanted.column:
             self.column: str | None = column_of(path, columns, wanted)
         elif wanted.everything:
@@ -61,6 +68,7 @@ class _Sieve:
         self.counts: Counter[str] = Counter()
         self.matches: dict[str, bool] = {}
         self.open = True
+        self.is_undecided = self.column is None and not wanted.everything
 
     def keeps(self, values: Sequence[str]) -> NDArray[np.bool_]:
         """Which rows of a block are kept, by their value in the column."""
@@ -72,6 +80,22 @@ class _Sieve:
         if self.open and len(self.counts) > 1:
             self.open = len({self.wanted.key(value) for value in self.counts if value.strip()}) < 2
         return np.full(len(values), self.open)
+
+    def decide(self, table: Table) -> None:
+        """Look whether the rows so far are several vehicles: then the others are only counted."""
+        self.is_undecided = False
+        try:
+            choose(self.path, table, self.wanted, None)
+        except SeveralTracksError as several:
+            label = table.labels[several.column]
+            self.counts.update(label.values[code] for code in label.codes.tolist())
+            self.column, self.at, self.open = several.column, self.columns.index(several.column), False
+        except TrackError:  # it will be told of the whole file
+            return
+
+    def count(self, rows: list[list[str]]) -> None:
+        """Count the values of rows that were read before the column was known."""
+        self.counts.update(row[self.at] if len(row) > self.at else "" for row in rows)
 
     def finish(self) -> None:
         """Refuse several vehicles."""

@@ -36,18 +36,19 @@ def netcdf_table(path: Path, wanted: Wanted) -> Table:
     TrackError : it holds no trajectories, or times that cannot be decoded
     MissingExtraError : netCDF4 is not installed
     """
-    netcdf4 = _netcdf4()
-    if not is_safe(lambda: _read(path, netcdf4, wanted)):
+    _netcdf4()
+    if not is_safe(_read, path, wanted):
         raise TrackError(str(path), "is damaged: the NetCDF library fails on it", "export it again")
     try:
-        return _read(path, netcdf4, wanted)
+        return _read(path, wanted)
     except (ShoalError, OSError):
         raise
     except Exception as error:  # what netCDF4 raises on a damaged file has no common class
         raise TrackError(str(path), f"cannot be read ({error})", "export it again") from error
 
 
-def _read(path: Path, netcdf4: Any, wanted: Wanted) -> Table:
+def _read(path: Path, wanted: Wanted) -> Table:
+    netcdf4 = _netcdf4()
     with warnings.catch_warnings(), netcdf4.Dataset(path) as dataset:
         warnings.simplefilter("ignore")  # netCDF4's own, of attributes that it does not use
         return _trajectories(path, netcdf4, dataset, wanted)

@@ -35,6 +35,14 @@ class Wanted(NamedTuple):
         return comparable(text)
 
 
+class SeveralTracksError(TrackError):
+    """A file of several tracks, of which none is named; `column` tells them apart."""
+
+    def __init__(self, where: str, problem: str, fix: str, column: str = "") -> None:
+        super().__init__(where, problem, fix)
+        self.column = column
+
+
 def parse_wanted(track_id: str | None) -> Wanted:
     """Read a --track-id.
 
@@ -83,16 +91,18 @@ def refuse_several(path: Path, what: str, column: str, counts: Mapping[str, int]
             text.setdefault(comparable(value), value.strip())
     (best, fixes), *_ = alike.most_common(1)
     if fixes < 2:
-        raise TrackError(
+        raise SeveralTracksError(
             str(path),
             f"{what} holds {len(alike)} tracks, told apart by {column}, and no track has two fixes",
             "record longer, or export more of one track: a path needs two fixes",
+            column,
         )
-    raise TrackError(
+    raise SeveralTracksError(
         str(path),
         f"{what} holds {len(alike)} tracks, told apart by {column}; a target follows one",
         f"name one: --track-id {column}={text[best]} has the most fixes, {fixes}"
         + ("; if they are parts of one trip, --track-id all joins them" if may_be_parts else ""),
+        column,
     )
 
 

@@ -3,10 +3,10 @@
 import math
 from typing import Any
 
+from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.comparison import Comparison, Condition, Standing
 from shoal.experiments.leaderboard import Leaderboard
 from shoal.metrics.summary import METRICS
-from shoal.version import RESULTS_VERSION
 
 _BETTER = {1: "higher", -1: "lower", 0: None}
 
