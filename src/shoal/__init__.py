@@ -28,7 +28,6 @@ from shoal.core.version import VERSION as __version__  # noqa: N811 (the name ev
 
 if TYPE_CHECKING:
     from shoal.buoy.buoy import Buoy
-    from shoal.compiler.kernel import kernel
     from shoal.core.draws import normal, uniform
     from shoal.core.errors import ShoalError
     from shoal.core.messages import Reading, Report
@@ -42,7 +41,7 @@ if TYPE_CHECKING:
     from shoal.scenario.briefing import briefing
     from shoal.scenario.load import load, presets, to_toml
     from shoal.scenario.schema import Scenario
-    from shoal.strategies import strategy
+    from shoal.strategies import kernel, strategy
     from shoal.study import plot
     from shoal.study.check import check
     from shoal.study.compared import compare
@@ -55,7 +54,6 @@ _HOMES = {
     "shoal.core.draws": ("normal", "uniform"),
     "shoal.core.errors": ("ShoalError",),
     "shoal.core.messages": ("Reading", "Report"),
-    "shoal.compiler.kernel": ("kernel",),
     "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Seconds"),
     "shoal.metrics.contract": ("Measurement", "Metric", "Sum"),
     "shoal.paper.reproduce": ("reproduce",),
@@ -66,7 +64,7 @@ _HOMES = {
     "shoal.scenario.schema": ("Scenario",),
     "shoal.run.simulate": ("simulate",),
     "shoal.run.simulation": ("Simulation",),
-    "shoal.strategies": ("strategy",),
+    "shoal.strategies": ("kernel", "strategy"),
     "shoal.study.check": ("check",),
     "shoal.study.compared": ("compare",),
     "shoal.study.listing": ("list_metrics", "list_presets", "list_strategies"),
