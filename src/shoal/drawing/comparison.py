@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shoal.drawing.curves import draw_band
+from shoal.drawing.curves import Curve, draw_band
 from shoal.drawing.style import FLEET_COLORS, GRAY, INK, TARGET, new_figure, style
-from shoal.drawing.sweep import Curve
 from shoal.drawing.words import shorten
 
 if TYPE_CHECKING:

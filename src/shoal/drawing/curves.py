@@ -1,6 +1,7 @@
 """Curves: a mean with its band, and time on target over the course of a run."""
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +16,24 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _BAND = 0.2  # opacity
+
+
+@dataclass
+class Curve:
+    """Mean and 95 % interval of a metric at each of P places x; no interval (None) where there is one run only."""
+
+    label: str
+    x: list[Any] = field(default_factory=list)
+    mean: list[float] = field(default_factory=list)
+    low: list[float | None] = field(default_factory=list)
+    high: list[float | None] = field(default_factory=list)
+
+    def add(self, x: Any, mean: float, low: float | None, high: float | None) -> None:
+        """Add a place."""
+        self.x.append(x)
+        self.mean.append(mean)
+        self.low.append(low)
+        self.high.append(high)
 
 
 def draw_band(
@@ -32,19 +51,9 @@ def draw_band(
     axes.plot(at, middle, color=color, label=legend_text(label))
 
 
-def draw_curve(
-    axes: "Axes",
-    x: npt.ArrayLike,
-    mean: npt.ArrayLike,
-    low: npt.ArrayLike,
-    high: npt.ArrayLike,
-    label: str,
-    color: str,
-    marker: str,
-    bold: bool = False,
-) -> None:
+def draw_curve(axes: "Axes", curve: Curve, color: str, marker: str, bold: bool = False) -> None:
     """Draw a curve with its band and a marker per point; a single point gets its interval as a bar."""
-    at, middle, bottom, top = (np.asarray(each, float) for each in (x, mean, low, high))
+    at, middle, bottom, top = (np.asarray(each, float) for each in (curve.x, curve.mean, curve.low, curve.high))
     width, size = (2.2, 3.8) if bold else (1.3, 3.0)
     draw_band(axes, at, middle, bottom, top, "", color)
     axes.lines[-1].set_linewidth(width)
@@ -59,7 +68,7 @@ def draw_curve(
         markersize=4.5,
         markeredgewidth=0,
         linewidth=width,
-        label=legend_text(label),
+        label=legend_text(curve.label),
     )  # for the legend
 
 

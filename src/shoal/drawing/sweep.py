@@ -1,11 +1,8 @@
 """A sweep as curves with bands: one metric against one field."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import numpy as np
-
-from shoal.drawing.curves import draw_curve
+from shoal.drawing.curves import Curve, draw_curve
 from shoal.drawing.style import FLEET_COLORS, GRAY, fleet_marker, new_figure, style
 
 if TYPE_CHECKING:
@@ -14,17 +11,6 @@ if TYPE_CHECKING:
 
 _WIDTH, _HEIGHT = 6.4, 3.9  # [in]
 _COLORS = tuple(FLEET_COLORS[at] for at in (0, 2, 3, 1, 5, 6))  # neighbors in a legend differ most
-
-
-@dataclass
-class Curve:
-    """Mean and 95 % interval of a metric at each x; no interval (None) where there is one run only."""
-
-    label: str
-    x: list[Any]
-    mean: list[float]
-    low: list[float | None]
-    high: list[float | None]
 
 
 def sweep_page(curves: list[Curve], x_label: str, y_label: str, unit: str) -> "Figure":
@@ -43,11 +29,11 @@ def draw_sweep(axes: "Axes", curves: list[Curve], x_label: str, y_label: str, un
     words = sorted({str(x) for curve in curves for x in curve.x if isinstance(x, str)})
     for number, curve in enumerate(curves):
         order = sorted(range(len(curve.x)), key=lambda i: words.index(str(curve.x[i])) if words else curve.x[i])
-        x = [words.index(str(curve.x[i])) if words else curve.x[i] for i in order]
-        mean, low, high = (
-            np.array([values[i] for i in order], float) for values in (curve.mean, curve.low, curve.high)
-        )
-        draw_curve(axes, x, mean, low, high, curve.label, _COLORS[number % len(_COLORS)], fleet_marker(number))
+        placed = Curve(curve.label)
+        for i in order:
+            x = words.index(str(curve.x[i])) if words else curve.x[i]
+            placed.add(x, curve.mean[i], curve.low[i], curve.high[i])
+        draw_curve(axes, placed, _COLORS[number % len(_COLORS)], fleet_marker(number))
     if words:
         axes.set_xticks(range(len(words)), words)
     elif all(float(x).is_integer() for curve in curves for x in curve.x):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shoal.drawing.curves import draw_curve
+from shoal.drawing.curves import Curve, draw_curve
 from shoal.metrics.summary import Bounds
 from shoal.paper.curves import FEW, intervals
 from shoal.paper.plan import AGENTS
@@ -106,8 +106,10 @@ def curve(
     axes: "Axes", points: Series, label: str, color: str, marker: str, x_factor: float = 1.0, *, bold: bool = False
 ) -> None:
     """Draw a series with its band and a marker per cell; a single point gets its interval as a bar."""
-    x = x_factor * np.array(points.x)
-    draw_curve(axes, x, points.mean, points.low, points.high, label, color, marker, bold)
+    drawn = Curve(label)
+    for x, mean, low, high in zip(points.x, points.mean, points.low, points.high, strict=True):
+        drawn.add(x_factor * x, mean, low, high)
+    draw_curve(axes, drawn, color, marker, bold)
 
 
 def show_means(axes: "Axes", rows: Iterable[Row]) -> None:

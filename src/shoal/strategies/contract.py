@@ -14,10 +14,11 @@ from collections import namedtuple
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, Required, TypedDict, Unpack
 
 from shoal.compiler.kernel import TypingError, kernel, overload
-from shoal.core.errors import StrategyError
+from shoal.core.errors import StrategyError, did_you_mean
+from shoal.core.keywords import lists_keywords
 from shoal.core.messages import Heard
 from shoal.core.text import checked_name
 from shoal.strategies.rank import asks_for_rank
@@ -75,21 +76,39 @@ ARGUMENTS = {  # of the functions of a strategy
 }
 
 
-def strategy(
-    name: str,
-    *,
-    params: type[Any],
-    memory: dict[str, str] | None = None,
-    tells: tuple[str, ...] = (),
-    sums: tuple[str, ...] = ("x", "y"),
-    informed: bool = False,
-    hears_all: bool = False,
-    reference: str = "",
-    begin: Callable[..., Any] | None = None,
-    leads: Callable[..., Any] | None = None,
-    priority: Callable[..., Any] | None = None,
-    influence: Callable[..., Any] | None = None,
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+class Declaration(TypedDict, total=False):
+    """What `@strategy` takes besides the name, see there."""
+
+    params: Required[type[Any]]
+    memory: dict[str, str] | None
+    tells: tuple[str, ...]
+    sums: tuple[str, ...]
+    informed: bool
+    hears_all: bool
+    reference: str
+    begin: Callable[..., Any] | None
+    leads: Callable[..., Any] | None
+    priority: Callable[..., Any] | None
+    influence: Callable[..., Any] | None
+
+
+_TWO_SUMS = ("x", "y")
+_DEFAULTS: dict[str, Any] = {
+    "memory": None,
+    "tells": (),
+    "sums": _TWO_SUMS,
+    "informed": False,
+    "hears_all": False,
+    "reference": "",
+    "begin": None,
+    "leads": None,
+    "priority": None,
+    "influence": None,
+}
+
+
+@lists_keywords(Declaration, _DEFAULTS)
+def strategy(name: str, **declared: Unpack[Declaration]) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Register the decorated `decide` function as a strategy.
 
     Parameters
@@ -109,12 +128,22 @@ def strategy(
 
     Raises
     ------
-    StrategyError : params are no NamedTuple, belong to another strategy, or one has no default; a field is told that
-        is not remembered; sums are not names; a function takes other arguments, or asks for what it cannot know
+    StrategyError : another keyword; params are missing, not a NamedTuple, another strategy's, or one has no default;
+        a field is told that is not remembered; sums are not names; a function takes other arguments, or asks for what
+        it cannot know
     """
 
+    where = f"strategy {name!r}"
+    for word in declared:
+        if word not in Declaration.__annotations__:
+            known = list(Declaration.__annotations__)
+            raise StrategyError(where, f"has no {word!r}", f"{did_you_mean(word, known)}there are: {', '.join(known)}")
+    given: dict[str, Any] = {**_DEFAULTS, **declared}
+    params: Any = given.get("params")
+    memory, tells, sums = given["memory"] or {}, given["tells"], given["sums"]
+    begin, leads, priority, influence = (given[role] for role in ("begin", "leads", "priority", "influence"))
+
     def register(decide: Callable[..., Any]) -> Callable[..., Any]:
-        where = f"strategy {name!r}"
         fields = getattr(params, "_fields", None)
         if fields is None:
             raise StrategyError(
@@ -135,11 +164,11 @@ def strategy(
             raise StrategyError(
                 where, problem, "write a NamedTuple class of its own: the class decides whose functions run"
             )
-        untold = [field for field in tells if field not in (memory or {})]
+        untold = [field for field in tells if field not in memory]
         if untold:
             raise StrategyError(where, f"tells {untold[0]!r}, which is not in memory", "add it to memory={...}")
-        given = {"decide": decide, "begin": begin, "leads": leads, "priority": priority, "influence": influence}
-        for role, function in given.items():
+        functions = {"decide": decide, "begin": begin, "leads": leads, "priority": priority, "influence": influence}
+        for role, function in functions.items():
             if function and (count := _arguments(function)) != len(ARGUMENTS[role]):
                 wanted = f"({', '.join(ARGUMENTS[role])})"
                 raise StrategyError(where, f"{role} takes {count} arguments", f"let it take {wanted}")
@@ -148,21 +177,20 @@ def strategy(
         if leads and "rank" not in fields and asks_for_rank(leads):
             problem = "leads asks for other.rank, but is asked once for all listeners"
             raise StrategyError(where, problem, "let priority return math.inf for whom this agent does not follow")
-        remembered = dict(memory or {})
         compiled = kernel(decide)
         plain: Any = getattr(decide, "py_func", decide)
         _register(
             Strategy(
                 name=name,
                 params=params,
-                memory={field: remembered[field] for field in (*tells, *remembered)},
+                memory={field: memory[field] for field in (*tells, *memory)},
                 told=tuple(tells),
                 sums=_sums_class(where, sums),
                 ranked=any(asks_for_rank(function) for function in (influence, priority) if function),
-                informed=informed,
-                hears_all=hears_all,
+                informed=given["informed"],
+                hears_all=given["hears_all"],
                 summary=(plain.__doc__ or "").strip().split("\n")[0],
-                reference=reference,
+                reference=given["reference"],
                 source=plain.__code__.co_filename,
                 builtin=plain.__module__.startswith("shoal."),
                 begin=kernel(begin) if begin else _keep_zeros,
@@ -175,9 +203,6 @@ def strategy(
         return compiled
 
     return register
-
-
-_TWO_SUMS = ("x", "y")
 
 
 def _sums_class(where: str, names: Any) -> type[Any]:

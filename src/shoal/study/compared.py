@@ -3,9 +3,10 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from shoal.core.errors import MissingExtraError, ScenarioError, UnknownNameError, did_you_mean
+from shoal.core.keywords import lists_keywords, split_keywords
 from shoal.core.sheet import Sheet
 from shoal.experiments.cells import make_cells
 from shoal.experiments.compare import comparison_design, run_comparison, values_of
@@ -150,18 +151,21 @@ class Compared:
         return [row for _, strategies in self.found for rows in strategies.values() for row in rows if row]
 
 
+class CompareOptions(NamedTuple):
+    """What `compare` compares and how it runs, see there; its other words change the scenario."""
+
+    runs: int = RUNS
+    vary: Mapping[str, Values] | None = None
+    metric: str = "time_on_target"
+    baseline: str | None = None
+    jobs: int | None = None
+    out: str | Path | None = None
+    progress: Callable[[int, int], None] | None = None
+
+
+@lists_keywords(CompareOptions)
 def compare(
-    strategies: Sequence[Any] | str | Path | Callable[..., Any],
-    scenario: Source = "oceans2020",
-    *,
-    runs: int = RUNS,
-    vary: Mapping[str, Values] | None = None,
-    metric: str = "time_on_target",
-    baseline: str | None = None,
-    jobs: int | None = None,
-    out: str | Path | None = None,
-    progress: Callable[[int, int], None] | None = None,
-    **changes: Any,
+    strategies: Sequence[Any] | str | Path | Callable[..., Any], scenario: Source = "oceans2020", **changes: Any
 ) -> Compared:
     """Run strategies with the same seeds, and return ranks, paired differences and what is left after correction.
 
@@ -186,37 +190,40 @@ def compare(
     ScenarioError, StrategyError : what cannot run; nothing was run then
     RecordError : `out` is another study's, is in use, or cannot be written
     """
-    positive(runs=runs, jobs=jobs)
-    check_words(changes, also=("runs", "vary", "metric", "baseline", "jobs", "out", "progress"))
+    options, changes = split_keywords(CompareOptions, changes)
+    positive(runs=options.runs, jobs=options.jobs)
+    check_words(changes, also=CompareOptions._fields)
     named = [strategies] if isinstance(strategies, (str, Path)) or callable(strategies) else list(strategies)
     return compared(
         [str(name_of(each)) for each in named],
         scenario,
-        runs=runs,
-        vary=varied(vary or {}),
-        metric=metric,
-        baseline=baseline,
-        changes={name: written(value) for name, value in changes.items()},
-        out=Path(out) if out is not None else None,
-        executor=compiled_first(in_threads(jobs), _say_nothing),
-        report=progress_of(progress),
+        {name: written(value) for name, value in changes.items()},
+        options,
+        executor=compiled_first(in_threads(options.jobs), _say_nothing),
+        report=progress_of(options.progress),
     )
 
 
 def compared(
     named: Sequence[str],
     scenario: Source,
-    *,
-    runs: int,
-    vary: Mapping[str, Sequence[Any]],
-    metric: str,
-    baseline: str | None,
     changes: Mapping[str, Any],
-    out: Path | None,
+    options: CompareOptions,
+    *,
     executor: Executor,
     report: Callable[[Progress], None] | None,
 ) -> Compared:
-    """Run what is missing and compare; what `compare` and the command line have in common."""
+    """Run what is missing and compare; what `compare` and the command line have in common.
+
+    Parameters
+    ----------
+    named : strategies, by name or file
+    scenario, changes : what they run in
+    options : what is compared; its jobs and progress are ignored, the executor and the report have theirs
+    executor : where runs happen
+    report : called after every run
+    """
+    metric, baseline = options.metric, options.baseline
     if metric not in METRICS:
         hint = did_you_mean(metric, METRICS)
         raise ScenarioError(f"metric {metric}", "is no metric", f"{hint}there are: {', '.join(METRICS)}")
@@ -225,9 +232,9 @@ def compared(
     if baseline is not None and baseline not in names:
         hint = did_you_mean(baseline, names)
         raise ScenarioError(f"baseline {baseline}", "is not compared", f"{hint}there are: {', '.join(names)}")
-    design = comparison_design(scenario, everybody, runs, vary)
+    design = comparison_design(scenario, everybody, options.runs, varied(options.vary or {}))
     first = make_cells(design, dict(changes))[0].scenario
-    with store_folder(out) as folder:
+    with store_folder(options.out) as folder:
         found = run_comparison(design, everybody, folder, changes=dict(changes), executor=executor, report=report)
     direction = METRICS[metric].direction
     table = {_told(point): (point, values_of(strategies, metric)) for point, strategies in found}
@@ -236,7 +243,7 @@ def compared(
         metric=metric,
         direction=direction,
         scenario=str(scenario) if isinstance(scenario, (str, Path)) else first.name,
-        runs=runs,
+        runs=options.runs,
         steps=first.steps,
         seed=first.seed,
         comparison=compare_values(table, baseline or names[0], informed, direction, bounds_of(metric)),

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shoal.drawing.comparison import Bar, Panel, bars_figure, curves_figure
-from shoal.drawing.sweep import Curve
+from shoal.drawing.curves import Curve
 from shoal.drawing.words import field_words
 from shoal.experiments.comparison import Comparison, Condition
 from shoal.experiments.contenders import LATTICE
@@ -57,14 +57,11 @@ def _curves(comparison: Comparison, field: str) -> list[Curve]:
     conditions = sorted(comparison.conditions, key=lambda each: float(each.point[field]))
     curves = []
     for first in comparison.conditions[0].standings:
-        curve = Curve(first.strategy, [], [], [], [])
+        curve = Curve(first.strategy)
         for condition in conditions:
             value = condition.of(first.strategy).value
             low, high = value.ci95 or (None, None)
-            curve.x.append(condition.point[field])
-            curve.mean.append(value.mean)
-            curve.low.append(low)
-            curve.high.append(high)
+            curve.add(condition.point[field], value.mean, low, high)
         curves.append(curve)
     return curves
 

@@ -10,10 +10,10 @@ from shoal.experiments.sweep import Progress
 
 
 @contextmanager
-def store_folder(out: Path | None) -> Iterator[Path]:
+def store_folder(out: str | Path | None) -> Iterator[Path]:
     """Yield the folder."""
     if out is not None:
-        yield out
+        yield Path(out)
         return
     with tempfile.TemporaryDirectory(prefix="shoal-study-") as folder:
         yield Path(folder) / "store"

@@ -17,7 +17,7 @@ import numpy as np
 from shoal.core.errors import RecordError, ScenarioError, did_you_mean, no_attribute
 from shoal.core.text import plain
 from shoal.drawing.arena import arena_aspect
-from shoal.drawing.curves import draw_batches
+from shoal.drawing.curves import Curve, draw_batches
 from shoal.drawing.files import save_figure
 from shoal.drawing.film import Film, FilmLook, write_film
 from shoal.drawing.footage import present
@@ -29,7 +29,7 @@ from shoal.drawing.snapshot import draw_snapshot, frames_of
 from shoal.drawing.stretch import frame_of
 from shoal.drawing.style import new_figure, style
 from shoal.drawing.summary import summary_figure
-from shoal.drawing.sweep import Curve, draw_sweep, sweep_page
+from shoal.drawing.sweep import draw_sweep, sweep_page
 from shoal.drawing.trajectory_map import draw_trajectory_map
 from shoal.drawing.words import field_words
 from shoal.experiments.replicate import Row
@@ -210,11 +210,8 @@ def curves(
     made: dict[Any, Curve] = {}
     for group in aggregate(rows, names, [y]):
         label = plain(f"{hue} {group[hue]}".replace("_", " ")) if hue else ""
-        curve = made.setdefault(label, Curve(label, [], [], [], []))
-        curve.x.append(group[x])
-        curve.mean.append(group[y])
-        curve.low.append(group[f"{y}_low"])
-        curve.high.append(group[f"{y}_high"])
+        curve = made.setdefault(label, Curve(label))
+        curve.add(group[x], group[y], group[f"{y}_low"], group[f"{y}_high"])
     if not made:
         raise ScenarioError("results", "hold no run that ended well", "see the column error, mend it, run them again")
     labels = field_words(x), METRICS[y].words, METRICS[y].unit

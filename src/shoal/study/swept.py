@@ -3,9 +3,10 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from shoal.core.errors import MissingExtraError, UnknownNameError
+from shoal.core.keywords import lists_keywords, split_keywords
 from shoal.core.sheet import Sheet
 from shoal.experiments.design import Design, grid, together
 from shoal.experiments.executors import in_threads
@@ -110,24 +111,22 @@ class Swept:
             else "means ± half of a 95 % interval, or its ends",
         )
 
-    def _cells(self, group: Row) -> list[str]:
-        return [*(str(group[name]) for name in (*self.fields, "runs")), *(_mean(group, name) for name in SHOWN)]
+
+class SweepOptions(NamedTuple):
+    """How `sweep` runs, see there; its other words change the scenario."""
+
+    runs: int = RUNS
+    mode: Literal["grid", "zip"] = "grid"
+    until_ci: float | None = None
+    max_runs: int = 50
+    independent: bool = False
+    jobs: int | None = None
+    out: str | Path | None = None
+    progress: Callable[[int, int], None] | None = None
 
 
-def sweep(
-    scenario: Source,
-    vary: Mapping[str, Values],
-    *,
-    runs: int = RUNS,
-    mode: Literal["grid", "zip"] = "grid",
-    until_ci: float | None = None,
-    max_runs: int = 50,
-    independent: bool = False,
-    jobs: int | None = None,
-    out: str | Path | None = None,
-    progress: Callable[[int, int], None] | None = None,
-    **changes: Any,
-) -> Swept:
+@lists_keywords(SweepOptions)
+def sweep(scenario: Source, vary: Mapping[str, Values], **changes: Any) -> Swept:
     """Run every combination of varied fields, several times each, and return the runs.
 
     >>> shoal.sweep("oceans2020", {"neighbors": range(10, 50, 10), "target_speed": [3, 5]}, runs=5, steps=5000)
@@ -151,26 +150,25 @@ def sweep(
     ScenarioError, StrategyError : a combination that cannot run; nothing was run then
     RecordError : `out` is another study's, is in use, or cannot be written
     """
+    options, changes = split_keywords(SweepOptions, changes)
     modes = {"grid": grid, "zip": together}
-    if mode not in modes:
-        raise UnknownNameError.of("mode", mode, modes)
-    positive(runs=runs, jobs=jobs, max_runs=max_runs)
-    check_words(
-        changes, also=("vary", "runs", "mode", "until_ci", "max_runs", "independent", "jobs", "out", "progress")
-    )
-    design = Design(scenario, tuple(modes[mode](varied(vary))), runs)
+    if options.mode not in modes:
+        raise UnknownNameError.of("mode", options.mode, modes)
+    positive(runs=options.runs, jobs=options.jobs, max_runs=options.max_runs)
+    check_words(changes, also=("vary", *SweepOptions._fields))
+    design = Design(scenario, tuple(modes[options.mode](varied(vary))), options.runs)
     name = str(scenario) if isinstance(scenario, (str, Path)) else load(scenario).name
-    with store_folder(Path(out) if out is not None else None) as folder:
+    with store_folder(options.out) as folder:
         rows = run_sweep(
             design,
             folder,
             changes={name: written(value) for name, value in changes.items()},
-            executor=in_threads(jobs),
-            until=Stop(until_ci, max_runs) if until_ci else None,
-            independent=independent,
-            report=progress_of(progress),
+            executor=in_threads(options.jobs),
+            until=Stop(options.until_ci, options.max_runs) if options.until_ci else None,
+            independent=options.independent,
+            report=progress_of(options.progress),
         )
-        if out is not None:
+        if options.out is not None:
             seal(folder, rows)
     return Swept(name, design.fields, rows)
 

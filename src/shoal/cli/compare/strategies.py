@@ -33,7 +33,7 @@ def compare_strategies(
     from shoal.experiments.compiled_first import compiled_first
     from shoal.experiments.design import parse_vary
     from shoal.experiments.executors import in_threads
-    from shoal.study.compared import RUNS, compared
+    from shoal.study.compared import RUNS, CompareOptions, compared
 
     options = [(f"--{name}", name) for name, value in (("steps", steps), ("seed", seed)) if value is not None]
     asked = [("STRATEGIES", "strategy"), *options, *as_options("--set", assignments), *as_options("--vary", vary)]
@@ -42,12 +42,8 @@ def compare_strategies(
         found = compared(
             named,
             scenario,
-            runs=runs or RUNS,
-            vary=dict(map(parse_vary, vary)),
-            metric=metric,
-            baseline=baseline,
-            changes=given_changes(assignments, steps=steps, seed=seed),
-            out=out,
+            given_changes(assignments, steps=steps, seed=seed),
+            CompareOptions(runs or RUNS, dict(map(parse_vary, vary)), metric, baseline, out=out),
             executor=compiled_first(in_threads(jobs), note),
             report=report,
         )
