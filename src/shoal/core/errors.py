@@ -80,7 +80,8 @@ def no_attribute(owner: str, name: str, known: Iterable[str]) -> AttributeError:
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """Return the question whether a known name was meant, a space behind it; nothing if none is near.
 
-    Near is the path or the only name that ends in it, or else what is spelt alike, what has these initials, the only one with this part.
+    Near is the path or the only name that ends in it, or else what is spelt alike, what has these initials, the only
+    one with this part.
     """
     names = list(known)
     near = [each for each in names if each.endswith(f".{name}")][:1]
