@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from shoal.record.record import Record
 
-_TARGET_UNITS = {"time_on_target": "1", "first_detection": "s", "losses": "1/h", "reacquisition": "s"}
-
 
 def to_pandas(record: "Record", what: str) -> "pandas.DataFrame":
     """Return one of the TABLES of a record, see `Record.to_pandas`.
@@ -66,7 +64,7 @@ def _fleets(record: "Record") -> dict[str, Any]:
 
 def _targets(record: "Record") -> dict[str, Any]:
     rows = [
-        (run, target, name, float(value), _TARGET_UNITS[name])
+        (run, target, name, float(value), METRICS[name].unit)
         for run, tally in enumerate(record.tallies)
         for name, values in each_target(tally, record.facts).items()
         for target, value in enumerate(values)
