@@ -1,7 +1,7 @@
 """Files that declare themselves: of a folder of ours, or of an installed package that offers one as an entry point.
 
-A file declares itself by giving one name, such as MEASUREMENT, a value at its top level. What it declares has a name; an
-entry point is named the same. Files that do not say it are in the folder for other reasons and are not imported.
+A file declares itself by giving one name, such as MEASUREMENT, a value at its top level. What it declares has a name;
+an entry point is named the same. Files that do not say it are in the folder for other reasons and are not imported.
 """
 
 import importlib
@@ -60,7 +60,7 @@ def declared(folder: str, mark: str, kind: type[Kind], group: str) -> tuple[list
 
 
 def import_marked(folder: str, mark: str) -> list[ModuleType]:
-    """Import the modules in a folder whose top level says a name, such as MEASUREMENT, in the order of their own names."""
+    """Import the modules in a folder whose top level says a name, such as MEASUREMENT; they are sorted by theirs."""
     modules = []
     for each in pkgutil.iter_modules(importlib.import_module(folder).__path__, f"{folder}."):
         finder: Any = each.module_finder

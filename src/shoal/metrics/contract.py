@@ -91,6 +91,7 @@ class Metric(NamedTuple):
     once : it happens once in a run, or the scenario decides it, so that batches of steps say nothing about its spread
     low, high : its bounds; those that a scenario decides have a name, see LIMITS
     several_targets : it says something only where there are several
+    package : the installed package that it is from, as errors call it; empty of built-in ones
     """
 
     name: str
@@ -103,6 +104,7 @@ class Metric(NamedTuple):
     low: float = 0.0
     high: float | str = math.inf
     several_targets: bool = False
+    package: str = ""
 
     @property
     def words(self) -> str:

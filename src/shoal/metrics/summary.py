@@ -37,7 +37,7 @@ def _named(each: Declared[Measurement]) -> Iterator[tuple[str, Metric]]:
     """
     for metric in each.value.metrics:
         if each.package is not None:
-            metric = metric._replace(formula=_careful(metric, each.package))
+            metric = metric._replace(formula=_careful(metric, each.package), package=each.package)
             metric.formula(new_tally(1, 1, 1, 2, 1), _ONE_FLEET)  # fails now rather than after a night
         yield metric.name, metric
 
@@ -57,7 +57,6 @@ def _careful(metric: Metric, package: str) -> Callable[[Any, Facts], float]:
 
 
 METRICS: dict[str, Metric] = dict(named for each in DECLARED for named in _named(each))
-INSTALLED = tuple(metric.name for each in DECLARED if each.package is not None for metric in each.value.metrics)
 
 
 def evaluate(name: str, tally: Tally, facts: Facts) -> tuple[float, Floats]:

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
     from shoal.record.record import Record
 
+_SHOWN = ("x", "y", "vx", "vy", "on_target", "engaged", "alive", "neighbors")
+
 
 def to_pandas(record: "Record", what: str) -> "pandas.DataFrame":
     """Return one of the TABLES of a record, see `Record.to_pandas`.
@@ -79,7 +81,7 @@ def _frames(record: "Record") -> dict[str, Any]:
         lambda frames: {
             "agent": np.arange(frames.x.shape[1]),
             "fleet": fleets,
-            **{name: getattr(frames, name) for name in ("x", "y", "vx", "vy", "on_target", "alive")},
+            **{name: getattr(frames, name) for name in _SHOWN},
             **{f"memory_{name}": values for name, values in frames.memory.items()},
         },
     )
