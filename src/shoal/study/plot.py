@@ -214,7 +214,7 @@ def curves(
         curve.add(group[x], group[y], group[f"{y}_low"], group[f"{y}_high"])
     if not made:
         raise ScenarioError("results", "hold no run that ended well", "see the column error, mend it, run them again")
-    labels = field_words(x), y.replace("_", " "), METRICS[y].unit
+    labels = field_words(x), METRICS[y].words, METRICS[y].unit
     if axes is None:
         return sweep_page(list(made.values()), *labels)
     return _drawn(axes, (_CHART, _RIGHT, _TOP), lambda into: draw_sweep(into, list(made.values()), *labels))
