@@ -103,7 +103,7 @@ class Paper:
         return v * np.minimum(1.0, max_speed / np.maximum(length(v), 1e-99))[:, None]
 
     def moved(self, x: Array, v: Array) -> tuple[Array, Array]:
-        """Eq. 3, and walls: where one acts v is the displacement really made; being put inside is no motion."""
+        """Eq. 3, and walls: where one acts v is the displacement really made; being put inside is not motion."""
         half = np.array([self.clamp_x, self.clamp_y])
         reached = np.clip(x + v, -half, half)
         return reached, np.where(reached != x + v, reached - np.clip(x, -half, half), v)

@@ -153,7 +153,7 @@ BAD = [
     (["knn-pso", "--suite", "arena", "--vary", "fast=0,15"], "--vary: does not go with --suite"),
     (["knn-pso", "--suite", "arena", "--markdown", "broken.py"], "has no place for the leaderboard"),
     (["knn-pso", "--markdown", "page.md"], "needs --suite"),
-    (["knn-pso", "--metric", "tot"], "is no metric"),
+    (["knn-pso", "--metric", "tot"], "is not a metric"),
     (["knn-pso", "--baseline", "levy-walk"], "is not compared"),
     (["knn-pso", "--scenario", "ocean2020"], "did you mean 'oceans2020'"),
     (["knn-pso", "--vary", "strategy.delta=0.1,0.2"], "strategies are what is compared"),

@@ -87,7 +87,8 @@ class TestCheckFile:
         for place, problem in {
             "": "it is a folder", ".": "it is a folder", "/": "it is a folder", "..": "it is a folder",
             "folder": "it is a folder", "link": "it is a folder", "nowhere/x.png": "there is no folder nowhere",
-            "file/x.png": "there is no folder file", "pipe": "it is no plain file", "/dev/null": "it is no plain file",
+            "file/x.png": "there is no folder file", "pipe": "it is not a regular file",
+            "/dev/null": "it is not a regular file",
             "x" * 300: "File name too long", "x" * 5000: "File name too long", "a\0b": "null", "/proc/x.png": "",
         }.items():  # fmt: skip
             where, said = refusal(check_file, Path(place))

@@ -152,7 +152,9 @@ def _size(text: str | None) -> tuple[int | None, int | None]:
         return None, None
     numbers = re.fullmatch(r"([0-9]{1,5})(?:x([0-9]{1,5}))?", text.lower())
     if not numbers:
-        raise ScenarioError(f"--size {cut(text)}", "is no size", "write WIDTHxHEIGHT such as 1280x720, or WIDTH alone")
+        raise ScenarioError(
+            f"--size {cut(text)}", "is not a size", "write WIDTHxHEIGHT such as 1280x720, or WIDTH alone"
+        )
     return int(numbers[1]), int(numbers[2]) if numbers[2] else None
 
 

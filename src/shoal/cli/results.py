@@ -109,7 +109,7 @@ def _tell_of(rows: list[dict[str, Any]]) -> None:
     if failed:
         many = f"all {len(rows)} runs" if len(failed) == len(rows) else f"{len(failed)} of {len(rows)} runs"
         note(f"{many} failed and gave no numbers; the first: {failed[0]}")
-        note("mend it, then the same shoal sweep command with --retry-failed")
+        note("correct it, then repeat the shoal sweep command with --retry-failed")
 
 
 def _print_groups(groups: list[dict[str, Any]], by: list[str]) -> None:

@@ -117,7 +117,7 @@ def sweep(
     note(f"next: shoal results {out}   shoal plot {out}")
     if failed:
         first = next(row["error"] for row in rows if row["status"] == "failed")
-        note(f"first failure: {first}\n  fix: mend it, then add --retry-failed")
+        note(f"first failure: {first}\n  fix: correct it, then add --retry-failed")
 
 
 def _design(source: str, vary: list[str], runs: int | None) -> Any:

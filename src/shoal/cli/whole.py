@@ -1,4 +1,4 @@
-"""Options that are numbers, in plain digits: 1.5 steps are refused, not rounded; 1_0, nan and inf are no numbers."""
+"""Options that are numbers, in plain digits: 1.5 steps are refused, not rounded; 1_0, nan and inf are not numbers."""
 
 import re
 from collections.abc import Sequence
@@ -14,14 +14,14 @@ _LONGEST = 20  # digits
 def _whole(hint: Any, tokens: Sequence[Any]) -> int:
     text = tokens[0].value
     if not re.fullmatch(rf"[-+]?[0-9]{{1,{_LONGEST}}}", text):
-        raise ValueError(f"{quoted(text)} is no whole number")
+        raise ValueError(f"{quoted(text)} is not a whole number")
     return int(text)
 
 
 def _number(hint: Any, tokens: Sequence[Any]) -> float:
     text = tokens[0].value
     if not re.fullmatch(rf"[-+]?([0-9]{{1,{_LONGEST}}}\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]{{1,2}})?", text):
-        raise ValueError(f"{quoted(text)} is no number")
+        raise ValueError(f"{quoted(text)} is not a number")
     return float(text)
 
 

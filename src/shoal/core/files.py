@@ -48,7 +48,7 @@ def check_file(path: str | Path, *, new: bool = False, ours: bool = False) -> Pa
         if new and os.path.lexists(path):
             raise RecordError(where, "exists already", "name another one, or remove this one first")
         if place.exists() and not place.is_file():
-            raise RecordError(where, "cannot be written: it is no plain file", "name a file")
+            raise RecordError(where, "cannot be written: it is not a regular file", "name a file")
         if ours and place.exists() and not _is_marked(place):
             raise RecordError(
                 where, "exists already, and was not made by Shoal", "name another file, or remove this one first"

@@ -35,7 +35,7 @@ def checked_name(text: str) -> str:
     if hidden := next(filter(hides, text), ""):
         raise ValueError(f"{quoted(text)} holds the control character {hidden!a}; leave it out")
     if not text.strip() or len(text) > LONGEST:
-        raise ValueError(f"{quoted(text)} is no name; write 1 to {LONGEST} characters")
+        raise ValueError(f"{quoted(text)} is not a name; write 1 to {LONGEST} characters")
     return text
 
 

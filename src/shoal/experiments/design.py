@@ -52,8 +52,8 @@ def together(vary: Mapping[str, Sequence[Any]]) -> list[Point]:
     """
     counts = {name: len(values) for name, values in vary.items()}
     if len(set(counts.values())) > 1:
-        told = ", ".join(f"{name} {count}" for name, count in counts.items())
-        raise ScenarioError("zip", f"fields have different numbers of values: {told}", "give each the same number")
+        counted = ", ".join(f"{name} {count}" for name, count in counts.items())
+        raise ScenarioError("zip", f"fields have different numbers of values: {counted}", "give each the same number")
     return [dict(zip(vary, values, strict=True)) for values in zip(*vary.values(), strict=True)]
 
 
@@ -89,7 +89,7 @@ def parse_vary(text: str) -> tuple[str, list[Any]]:
     """
     name, equals, values = text.partition("=")
     if not equals or not name.strip() or not values.strip():
-        raise ScenarioError(f"--vary {text}", "is no variation", "write field=1,2,3 or field=from:to:step")
+        raise ScenarioError(f"--vary {text}", "is not a variation", "write field=1,2,3 or field=from:to:step")
     return name.strip().replace("-", "_") if "." not in name else name.strip(), parse_values(values, f"--vary {text}")
 
 
@@ -172,7 +172,7 @@ def read_design(source: str) -> Design:
 
 def _table(source: str, name: str, value: Any) -> dict[str, Any]:
     if not isinstance(value, dict):
-        raise ScenarioError(f"{source} {name}", f"{quoted(value)} is no table", f"write [{name}] and FIELD = VALUE")
+        raise ScenarioError(f"{source} {name}", f"{quoted(value)} is not a table", f"write [{name}] and FIELD = VALUE")
     return value
 
 

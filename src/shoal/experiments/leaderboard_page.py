@@ -72,7 +72,7 @@ def page_part(board: Leaderboard, named: Sequence[str] = ()) -> str:
             standing_still(board),
             "## Condition by condition",
             family_text(f"all {board.shares.tests} comparisons of the tables below"),
-            *(_section(told, found) for told, found in conditions),
+            *(_section(condition, found) for condition, found in conditions),
         ]
     )
 
@@ -88,8 +88,8 @@ def standing_still(board: Leaderboard) -> str:
     ]
     for condition in (board.overall, *board.shares.conditions):
         beaten, equal = (_names(condition, verdict) for verdict in ("worse", "no difference shown"))
-        told = [f"it beats {beaten}"] * bool(beaten) + [f"no difference is shown to {equal}"] * bool(equal)
-        lines.append(f"- **{condition.name}**: {'; '.join(told) or 'it neither beats nor equals any'}.")
+        sentences = [f"it beats {beaten}"] * bool(beaten) + [f"no difference is shown to {equal}"] * bool(equal)
+        lines.append(f"- **{condition.name}**: {'; '.join(sentences) or 'it neither beats nor equals any'}.")
     return "\n".join(lines)
 
 
@@ -120,12 +120,12 @@ def _overview(board: Leaderboard) -> str:
     return _markdown(head, rows)
 
 
-def _section(told: SuiteCondition, found: Condition) -> str:
-    whole = f" / {told.whole:g}" if told.whole != 1 else ""
+def _section(condition: SuiteCondition, found: Condition) -> str:
+    whole = f" / {condition.whole:g}" if condition.whole != 1 else ""
     head = ["rank", "strategy", "share ± 95 %", "minus lattice", "adjusted p", "verdict"]
     rows = [[*_cells(each), each.verdict] for each in found.standings]
-    says = told.says[0].upper() + told.says[1:]
-    return f"### {told.name}\n\n{says}. Share: `{told.metric}`{whole}.\n\n{_markdown(head, rows)}"
+    says = condition.says[0].upper() + condition.says[1:]
+    return f"### {condition.name}\n\n{says}. Share: `{condition.metric}`{whole}.\n\n{_markdown(head, rows)}"
 
 
 def _cells(each: Standing) -> list[str]:

@@ -68,7 +68,7 @@ def aggregate(rows: Sequence[Row], by: Sequence[str], metrics: Sequence[str] = t
     unknown = [name for name in by if rows and name not in rows[0]]
     if unknown:
         known = [name for name in rows[0] if name not in LIST_COLUMNS]
-        raise ScenarioError(f"--by {unknown[0]}", "is no column of this sweep", f"there are: {', '.join(known)}")
+        raise ScenarioError(f"--by {unknown[0]}", "is not a column of this sweep", f"there are: {', '.join(known)}")
     groups: dict[tuple[Any, ...], list[Row]] = {}
     for row in rows:
         if row["status"] == "done":

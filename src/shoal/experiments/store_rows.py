@@ -92,7 +92,7 @@ def check_tables(database: sqlite3.Connection) -> None:
 
     Raises
     ------
-    ValueError : it is none of ours
+    ValueError : it is not one of ours
     """
     kinds = {(each["type"], each["tbl_name"]) for each in database.execute("SELECT type, tbl_name FROM sqlite_master")}
     tables = {name for kind, name in kinds if kind == "table"}
@@ -132,7 +132,7 @@ def read_meta(database: sqlite3.Connection, where: str) -> Meta:
             raise ValueError("what it says of the sweep is not what was written")
     fields = identity["fields"]
     if not isinstance(fields, list) or not all(isinstance(each, str) for each in fields):
-        raise ValueError("the fields that it varies are no names")
+        raise ValueError("the fields that it varies are not names")
     return Meta(layout, identity)
 
 
@@ -190,7 +190,7 @@ def read_row(stored: dict[str, Any], meta: Meta) -> Row:
     for name in LIST_COLUMNS:
         row[name] = json.loads(row.get(name) or "null")
         if not isinstance(row[name], list if row["status"] == "done" and name in stored else type(None)):
-            raise ValueError(f"{who}: {name} is no list")
+            raise ValueError(f"{who}: {name} is not a list")
     return {**{field: point.get(field) for field in meta.identity["fields"]}, **row}
 
 

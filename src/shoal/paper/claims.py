@@ -14,13 +14,13 @@ from shoal.paper.cases import (
     Case,
     Truth,
     about,
+    case_text,
     count,
     judge,
     judged,
     percent,
     positive,
     rising,
-    told,
     told_number,
     verdict_of,
     within,
@@ -48,7 +48,7 @@ from shoal.paper.results import Claim, Row
 
 SAME = 0.01  # a difference in time on target that does not matter
 SPREAD, SPREAD_DIGIT = 0.003, 0.0005  # C13: 0.3 %, and half of its last digit
-FEW_CASES = 4  # are told one by one
+FEW_CASES = 4  # are listed one by one
 SEEDS = 5  # of the paper
 SWARMS = {MIXED: "mixed", 0: "all slow"}
 STATEMENTS = {
@@ -225,8 +225,8 @@ def c12(episodes: Sequence[Episode]) -> Claim:
 
 
 def c13(rows: Sequence[Row], steps: int) -> Claim:
-    """Cases: the spread over runs / mean, in the median cell, of time on target and of Xi, at most 0.3 % as told with
-    one digit. The paper does not say which spread, so both of: standard deviation, and standard error of five runs.
+    """Cases: the spread over runs / mean, in the median cell, of time on target and of Xi, at most 0.3 % to one
+    digit. The paper does not say which spread, so both of: standard deviation, and standard error of five runs.
     Undecided for runs shorter than the claim's.
     """
     cases, notes = [], []
@@ -245,7 +245,7 @@ def c13(rows: Sequence[Row], steps: int) -> Claim:
         for kind, number in (("deviation", deviation), ("error", deviation.times(SEEDS**-0.5))):
             case = judged(f"{name}, {kind}", number, _spread if steps >= FULL_STEPS else _untold)
             cases += percent([case])
-    listed = "; ".join(told(case, " %", 2) for case in cases)
+    listed = "; ".join(case_text(case, " %", 2) for case in cases)
     measured = (
         f"spread over runs of {steps:,} steps / mean, in the median cell, as standard deviation and as standard error "
         f"of {SEEDS} runs: {listed}; {'; '.join(notes)}"
@@ -302,7 +302,7 @@ def _claim(
     """A claim from its cases; `text` has a place for the worst of them, or for all where they are few."""
     key = worst(cases, aim)
     shown = cases if 0 < len(cases) <= FEW_CASES else [key]
-    listed = "; ".join(told(case, digits=digits) for case in shown)
+    listed = "; ".join(case_text(case, digits=digits) for case in shown)
     rest = "" if len(shown) == len(cases) else f"; {count(cases)}"
     measured = f"{text.format(listed)}{rest}{note}"
     return Claim(id_, STATEMENTS[id_], measured, *key.number, unit, verdict_of(cases), figure, *count(cases))

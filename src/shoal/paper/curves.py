@@ -28,7 +28,7 @@ _SMALLEST = 1e-3  # error of a curve's points, relative to its range: equal runs
 
 
 class Interval(NamedTuple):
-    """A number and its 95 % interval; NaN bounds where it cannot be told."""
+    """A number and its 95 % interval; NaN bounds where it cannot be determined."""
 
     value: float
     low: float
@@ -226,7 +226,7 @@ def _around(value: float, draws: Floats) -> Interval:
 def _errors(runs: Floats, draws: int) -> tuple[float, Floats]:
     """Standard error of a point, and mean errors of made-up sets of seeds, (draws, K).
 
-    What all points of a seed share moves no peak: it is no part of the error, but of the draws.
+    What all points of a seed share moves no peak: it is not part of the error, but of the draws.
     """
     seeds, places = runs.shape
     if seeds == 1:  # from how far points lie off the line between their neighbors

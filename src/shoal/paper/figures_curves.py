@@ -182,8 +182,8 @@ def _capital(text: str) -> str:
 
 
 def _several(noun: str, values: Sequence[Any]) -> str:
-    told = ", ".join(str(value) for value in values)
-    return f"{noun} = {told}" if noun == "k" else f"{noun}{'s' if len(values) > 1 else ''} ({'; '.join(values)})"
+    listed = ", ".join(str(value) for value in values)
+    return f"{noun} = {listed}" if noun == "k" else f"{noun}{'s' if len(values) > 1 else ''} ({'; '.join(values)})"
 
 
 def _speeds(speeds: Sequence[float]) -> str:

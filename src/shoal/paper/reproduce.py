@@ -56,7 +56,7 @@ def reproduce(
     KeyboardInterrupt : interrupted; all finished runs are kept
     """
     if paper not in PAPERS:
-        raise ScenarioError(str(paper), "is no paper that Shoal can reproduce", f"choose {' or '.join(PAPERS)}")
+        raise ScenarioError(str(paper), "is not a paper that Shoal can reproduce", f"choose {' or '.join(PAPERS)}")
     if readings and paper != "oceans2020":
         raise ScenarioError(f"{paper} --readings", "are studied of oceans2020 only", "leave out --readings")
     begun, folder = time.monotonic(), Path(out)
@@ -157,10 +157,10 @@ def _claim_folder(out: Path, paper: str, quick: bool) -> None:
         out.mkdir(parents=True, exist_ok=True)
         known = json.loads(file.read_text(encoding="utf-8")) if file.exists() else mine
         if not isinstance(known, dict):
-            raise ValueError("it is no plan")
+            raise ValueError("it is not a plan")
     except OSError as error:
-        told = f"cannot be used: {error.strerror or error}"
-        raise RecordError(str(file), told, "name another folder with --out") from error
+        problem = f"cannot be used: {error.strerror or error}"
+        raise RecordError(str(file), problem, "name another folder with --out") from error
     except (ValueError, RecursionError) as error:
         raise RecordError(str(file), f"is damaged: {error}", "name another folder with --out") from error
     if known != mine:

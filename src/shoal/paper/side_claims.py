@@ -11,13 +11,13 @@ import numpy as np
 
 from shoal.paper.cases import (
     Case,
+    case_text,
     count,
     judge,
     judged,
     percent,
     positive,
     rising,
-    told,
     told_number,
     verdict_of,
     within,
@@ -320,10 +320,10 @@ def _claim(
     digits: int = 1,
     note: str = "",
 ) -> Claim:
-    """As the claims of the paper's figures are told: all cases where they are few, else the worst."""
+    """As the claims of the paper's figures are worded: all cases where they are few, else the worst."""
     key = worst(cases, aim)
     shown = cases if 0 < len(cases) <= _FEW_CASES else [key]
-    listed = "; ".join(told(case, digits=digits) for case in shown)
+    listed = "; ".join(case_text(case, digits=digits) for case in shown)
     rest = "" if len(shown) == len(cases) else f"; {count(cases)}"
     measured = f"{text.format(listed)}{rest}{note}"
     return Claim(id_, STATEMENTS[id_], measured, *key.number, unit, verdict_of(cases), figure, *count(cases))

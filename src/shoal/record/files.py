@@ -108,7 +108,7 @@ def open_record(folder: str | Path) -> Record:
     folder = Path(folder)
     try:
         if not (folder / "record.json").is_file():
-            raise RecordError(str(folder), "is no record (it has no record.json)", "name a folder made by --out")
+            raise RecordError(str(folder), "is not a record (it has no record.json)", "name a folder made by --out")
         content = read_content(folder / "record.json")
         facts = Facts(**{name: _plain(part) for name, part in content.facts})
         tallies = read_tallies(

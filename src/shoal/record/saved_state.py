@@ -49,7 +49,7 @@ def read_state(file: str | Path, identity: str, like: Arrays) -> dict[str, npt.N
     except RecordError:
         raise
     except Exception as error:  # whatever a damaged file does to those who read it
-        problem = f"is no saved state: {reason_of(error)}"
+        problem = f"is not a saved state: {reason_of(error)}"
         raise RecordError(str(file), problem, "name a file made by Simulation.save") from error
 
 

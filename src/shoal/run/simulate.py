@@ -27,7 +27,7 @@ from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source, load
 from shoal.scenario.schema import Scenario
 
-OVERVIEW = 500  # frames of the first run kept over its whole length, if not told otherwise
+OVERVIEW = 500  # frames of the first run kept over its whole length, unless asked otherwise
 TAIL = 300  # and of its last steps, all
 
 Progress = Callable[[int, int], None]

@@ -50,7 +50,7 @@ class Simulation:
 
     Raises
     ------
-    ScenarioError : it is none that can run
+    ScenarioError : it cannot run
     TrackError : a recorded track cannot be used
     StrategyError : the strategy cannot be compiled, or raises an error
     """
@@ -125,7 +125,7 @@ class Simulation:
         return Trajectory.from_frames(frames, self.memory_fields) if frames.step.size else None
 
     def look(self) -> Trajectory:
-        """Return the frame of now (K = 1), as the coming step would keep it. Nothing is changed."""
+        """Return the current frame (K = 1), as the coming step would keep it. Nothing is changed."""
         n, swarm, targets = self.scenario.agents, self.swarm, self.targets
         return Trajectory(
             step=np.array([self.number]),
@@ -143,7 +143,7 @@ class Simulation:
 
     @contextmanager
     def edit(self) -> Iterator[State]:
-        """Open the state for changes by hand; when the block ends, who is on target is decided anew.
+        """Open the state for changes by hand; when the block ends, who is on target is decided again.
 
         >>> with simulation.edit() as now:
         ...     now.swarm.x[:2] = 0.0

@@ -101,13 +101,13 @@ def open_track(target: TrackTarget, origin: tuple[float, float] | None) -> Track
 
 
 def _check_text(text: str) -> None:
-    """Refuse what the system's encoding could not read: its bytes are no text."""
+    """Refuse what the system's encoding could not read: its bytes are not text."""
     try:
         text.encode()
     except UnicodeEncodeError as error:
         shown = text.encode(errors="backslashreplace").decode()
         raise TrackError(
-            shown, "is no text in the encoding of this terminal", "set PYTHONUTF8=1 or a UTF-8 locale, or rename it"
+            shown, "is not text in the encoding of this terminal", "set PYTHONUTF8=1 or a UTF-8 locale, or rename it"
         ) from error
 
 

@@ -33,7 +33,7 @@ Degree = Count | Literal["all"]
 
 def _sentence(text: str) -> str:
     if len(text) > 2000 or any(hides(each) for each in text if each not in "\n\t"):
-        raise ValueError(f"{quoted(text)} is no sentence; write 2000 characters at most, none of them a control one")
+        raise ValueError(f"{quoted(text)} is not a sentence; write 2000 characters at most, none of them a control one")
     return text
 
 
@@ -200,7 +200,7 @@ class Scenario(Frozen):
         for name in update:
             if name not in type(self).model_fields:
                 hint = did_you_mean(name, type(self).model_fields).rstrip() or f"scenario.with_(**{{{name!r}: ...}})"
-                raise ScenarioError(name, f"is no field of a scenario (value {quoted(update[name])})", hint)
+                raise ScenarioError(name, f"is not a field of a scenario (value {quoted(update[name])})", hint)
         from shoal.scenario.load import scenario_from
 
         return cast(Self, scenario_from({**vars(self), **update}))
@@ -253,7 +253,7 @@ class Scenario(Frozen):
     def choices(self) -> dict[str, Any]:
         """All that shapes a run but its seed, as far as it is not left at its default.
 
-        A field that later versions add, off by default, is no part of it: hashes and stores stay what they are.
+        A field that later versions add, off by default, is not part of it: hashes and stores stay what they are.
         """
         content = self.model_dump(mode="json", exclude={"name", "description", "seed"}, exclude_defaults=True)
         for target, part in zip(self.targets, content["targets"], strict=True):

@@ -105,7 +105,7 @@ class DriftTarget(MovingTarget):
     current_x: MetersPerSecond = Field(default=0.0, description="eastward current [m/s]")
     current_y: MetersPerSecond = Field(default=0.0, description="northward current [m/s]")
     persistence: Annotated[Seconds, Positive] = Field(
-        default=10.0, description="of its own way: after this time the mean cosine of the turn is 1/e [s]"
+        default=10.0, description="of its own motion: after this time the mean cosine of the turn is 1/e [s]"
     )
 
 

@@ -147,7 +147,7 @@ def strategy(name: str, **declared: Unpack[Declaration]) -> Callable[[Callable[.
         fields = getattr(params, "_fields", None)
         if fields is None:
             raise StrategyError(
-                where, f"params={params!r} is no NamedTuple class", "write class Params(NamedTuple): ..."
+                where, f"params={params!r} is not a NamedTuple class", "write class Params(NamedTuple): ..."
             )
         try:
             checked_name(name)

@@ -36,7 +36,7 @@ class Encircle(NamedTuple):
     ] = 9.0
     ring: Annotated[Meters, Range(), Says("distance of the ring from the estimate")] = 0.95
     spacing: Annotated[Meters, Range(), Says("agents on the ring push each other when nearer than this")] = 2.0
-    push: Annotated[float, Range(), Says("how strongly, in ways to the neighbor")] = 0.3
+    push: Annotated[float, Range(), Says("how strongly, as a share of the distance to the neighbor")] = 0.3
     lead: Annotated[
         float, Range(), Says("share of the time to get there by which the ring is ahead of the estimate")
     ] = 0.1
@@ -44,7 +44,7 @@ class Encircle(NamedTuple):
         Seconds, Range(), Says("after so long without contact agents go home and forget the estimate")
     ] = 1.0
     learn: Annotated[
-        float, Range(0.0, 1.0), Says("share of a correction along the way that goes into the estimated speed")
+        float, Range(0.0, 1.0), Says("share of a correction along the path that goes into the estimated speed")
     ] = 0.05
 
 

@@ -15,7 +15,7 @@ class GlobalPso(NamedTuple):
     """Parameters."""
 
     inertia: Annotated[float, Range(), Says("omega: share of the velocity kept from one step to the next")] = 1.0
-    social: Annotated[float, Range(), Says("c: largest share of the way to the best wanted in one step")] = 0.5
+    social: Annotated[float, Range(), Says("c: largest share of the distance to the best wanted in one step")] = 0.5
 
 
 def decide(me, heard, memory, params, draw):

@@ -39,7 +39,7 @@ def decide(me, heard, memory, params, draw):
 
 @kernel
 def corner(me, leg, spacing):
-    """Way point number `leg`: up one track and down the next to the end of the part, and back on the same way [m]."""
+    """Waypoint number `leg`: up one track and down the next to the end of the part, and back on the same tracks [m]."""
     count = 2 * tracks_before(me, _ALL, spacing)
     at = int(leg)
     if at >= count:

@@ -72,7 +72,7 @@ def toward(me, x, y):
 
 @kernel
 def way_point_reached(me, x, y):
-    """Whether the agent can be at a way point within this step."""
+    """Whether the agent can be at a waypoint within this step."""
     dx = x - me.x
     dy = y - me.y
     step = me.max_speed * me.time_step
@@ -120,7 +120,7 @@ def rows_of(agents, half_x, half_y):
 
 @kernel
 def on_snake(me, share):
-    """The point `share` (0 to 1) of the way along the snake that the area is divided by, in the middle of its row [m].
+    """The point `share` (0 to 1) along the snake that the area is divided into, in the middle of its row [m].
 
     The area is cut into rows, and a snake runs through them, east in the first and back west in the next. An agent's
     part is a piece of the snake as long as its share of the summed top speeds: all parts are searched equally fast.

@@ -19,7 +19,7 @@ def check(scenario: Source, **changes: Any) -> list[str]:
 
     Raises
     ------
-    ScenarioError, TrackError, StrategyError : it cannot run: where, why, and how to mend it
+    ScenarioError, TrackError, StrategyError : it cannot run: where, why, and how to fix it
     """
     known = load(scenario, **changes)
     crew_of(known)

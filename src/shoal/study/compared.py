@@ -226,7 +226,7 @@ def compared(
     metric, baseline = options.metric, options.baseline
     if metric not in METRICS:
         hint = did_you_mean(metric, METRICS)
-        raise ScenarioError(f"metric {metric}", "is no metric", f"{hint}there are: {', '.join(METRICS)}")
+        raise ScenarioError(f"metric {metric}", "is not a metric", f"{hint}there are: {', '.join(METRICS)}")
     everybody = contenders(named)
     names = [each.name for each in everybody]
     if baseline is not None and baseline not in names:

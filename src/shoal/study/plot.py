@@ -199,21 +199,25 @@ def curves(
     """
     fields, rows = varied_rows(results)
     if y not in METRICS:
-        raise ScenarioError(f"y {y}", "is no metric", f"{did_you_mean(y, METRICS)}there are: {', '.join(METRICS)}")
+        raise ScenarioError(f"y {y}", "is not a metric", f"{did_you_mean(y, METRICS)}there are: {', '.join(METRICS)}")
     x = x or default_x(fields, rows)
     hue = hue or next((name for name in fields if name != x), None)
     names = [name for name in (hue, x) if name]
     unknown = [name for name in names if rows and name not in rows[0]]
     if unknown:
         hint = did_you_mean(unknown[0], fields)
-        raise ScenarioError(f"field {unknown[0]}", "is none of this sweep", f"{hint}there are: {', '.join(fields)}")
+        raise ScenarioError(
+            f"field {unknown[0]}", "is not a field of this sweep", f"{hint}there are: {', '.join(fields)}"
+        )
     made: dict[Any, Curve] = {}
     for group in aggregate(rows, names, [y]):
         label = plain(f"{hue} {group[hue]}".replace("_", " ")) if hue else ""
         curve = made.setdefault(label, Curve(label))
         curve.add(group[x], group[y], group[f"{y}_low"], group[f"{y}_high"])
     if not made:
-        raise ScenarioError("results", "hold no run that ended well", "see the column error, mend it, run them again")
+        raise ScenarioError(
+            "results", "hold no run that ended well", "see the column error, fix the cause and run them again"
+        )
     labels = field_words(x), y.replace("_", " "), METRICS[y].unit
     if axes is None:
         return sweep_page(list(made.values()), *labels)
@@ -240,7 +244,9 @@ def _record(what: AnyRecord) -> Record:
     if isinstance(what, (str, Path)):
         return open_record(what)
     if not isinstance(what, Record):
-        raise RecordError(type(what).__name__, "is no record", "give what shoal.simulate returns, or a record's folder")
+        raise RecordError(
+            type(what).__name__, "is not a record", "give what shoal.simulate returns, or a record's folder"
+        )
     return what
 
 
