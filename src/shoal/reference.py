@@ -52,7 +52,7 @@ class Paper:
     clamp_y: float = 8.5
 
     def algorithm_2(self, swarm: Swarm, target: Array, r: Array) -> tuple[Swarm, Seen]:
-        """Dynamic k-nearest network PSO with adaptive repulsion: one step. r: draws from U(0, 1), (N,)."""
+        """Algorithm 2, dynamic k-nearest network PSO with adaptive repulsion: a step. r: draws from U(0, 1), (N,)."""
         x, v, a = (np.array(each, float) for each in swarm)
         limited, near, best = np.empty_like(v), np.empty((len(x), self.k), int), np.empty(len(x), int)
         f = self.on_target(x, target)
@@ -68,7 +68,7 @@ class Paper:
         return Swarm(x, v, a), Seen(f, near, best, u, self.phi(x, limited, v, target))
 
     def algorithm_1(self, a: Array, tracking: Array) -> Array:
-        """Adaptive repulsion: a_R falls while tracking and rises while exploring; the test comes before the step."""
+        """Algorithm 1, adaptive repulsion: a_R falls while tracking and rises while exploring; tested, then stepped."""
         fallen = np.where(a > self.a_min, a - self.a_down, a)
         return np.where(tracking, fallen, np.where(a < self.a_max, a + self.a_up, a))
 

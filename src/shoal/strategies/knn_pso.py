@@ -49,7 +49,7 @@ def influence(me, other, params):
 def decide(me, heard, memory, params, draw):
     """k-nearest PSO with adaptive repulsion: the paper's.
 
-    v <- omega v + (c r (Nbest - x) + repulsion_step sum_j (a_R / r_ij)^d (x_i - x_j) / r_ij) / dt     Eqs. 2-4
+    v <- omega v + (c r (Nbest - x) + repulsion_step sum_j (a_R / r_ij)^d (x_i - x_j) / r_ij) / dt     Eq. 2 + Eq. 4
     """
     contact = me.on_target or heard.found
     memory.repulsion = adapted(
