@@ -94,7 +94,7 @@ class TestStore:
         def interrupted(*arguments, **options):
             raise KeyboardInterrupt
 
-        monkeypatch.setattr("shoal.experiments.compare.sweep", interrupted)
+        monkeypatch.setattr("shoal.experiments.run_comparison.sweep", interrupted)
         code, out, err = shoal(capsys, "compare", "knn-pso", *SHORT, "--out", "s")
         assert (code, out) == (130, "")
         assert "the same command goes on from there" in err

@@ -71,7 +71,7 @@ class TestArena:
 
     def test_what_counts_is_a_share(self, arena):
         for each in arena.conditions:
-            assert METRICS[each.metric].unit == "1" or each.whole == len(each.changes["targets"])
+            assert METRICS[each.metric].unit == "1" or each.out_of == len(each.changes["targets"])
 
     def test_folders_of_conditions_differ(self, arena):
         assert len({each.folder for each in arena.conditions}) == len(arena.conditions)

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
+from shoal.cli.numbers import Integer, MaybeInteger, MaybeNumber
 from shoal.cli.older import opened
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler, tell_of_compiling
-from shoal.cli.whole import MaybeNumber, MaybeWhole, Whole
 from shoal.core.errors import ScenarioError
 from shoal.core.text import cut
 
@@ -27,20 +27,20 @@ def film(
     /,
     *,
     out: Path,
-    start: MaybeWhole = None,
-    steps: MaybeWhole = None,
-    every: MaybeWhole = None,
-    step: MaybeWhole = None,
+    start: MaybeInteger = None,
+    steps: MaybeInteger = None,
+    every: MaybeInteger = None,
+    step: MaybeInteger = None,
     seconds: MaybeNumber = None,
     fps: MaybeNumber = None,
     size: str | None = None,
-    run: Whole = 0,
+    run: Integer = 0,
     links: Annotated[bool, _No] = False,
     trails: bool = True,
     halos: Annotated[bool, _No] = False,
     sensors: Annotated[bool, _No] = False,
     panels: Annotated[bool, _No] = False,
-    seed: MaybeWhole = None,
+    seed: MaybeInteger = None,
     assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
 ) -> None:
     """Make a film (.mp4, .gif) or a still (.png) of a record, or of a scenario, which is run for it.

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from shoal.cli.numbers import MaybeInteger
 from shoal.cli.output import write
 from shoal.cli.progress import note
 from shoal.cli.sweep_progress import sweep_progress
-from shoal.cli.whole import MaybeWhole
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -23,7 +23,7 @@ def reproduce(
     quick: Annotated[bool, Parameter(negative=())] = False,
     readings: Annotated[bool, Parameter(negative=())] = False,
     out: Path | None = None,
-    jobs: MaybeWhole = None,
+    jobs: MaybeInteger = None,
 ) -> None:
     """Run a paper's experiments, test its claims, and write a report; the same command again resumes.
 

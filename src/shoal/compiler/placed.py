@@ -137,13 +137,13 @@ def _store(context, stage, address):
 
 @_as_literal_kernel
 def _load(context, stage, field):
-    place, whole = field.literal_value, _type()
+    place, stage = field.literal_value, _type()
 
     def build(context, builder, signature, arguments):
-        pointer = builder.inttoptr(arguments[0], context.get_data_type(whole).as_pointer())
-        return _unowned(context, builder, whole[place], cgutils.gep_inbounds(builder, pointer, 0, place))
+        pointer = builder.inttoptr(arguments[0], context.get_data_type(stage).as_pointer())
+        return _unowned(context, builder, stage[place], cgutils.gep_inbounds(builder, pointer, 0, place))
 
-    return whole[place](types.int64, field), build
+    return stage[place](types.int64, field), build
 
 
 def _unowned(context: Any, builder: Any, kind: Any, pointer: Any) -> Any:

@@ -58,7 +58,7 @@ def together(vary: Mapping[str, Sequence[Any]]) -> list[Point]:
 
 
 def latin_hypercube(vary: Mapping[str, Sequence[Any]], samples: int, seed: int) -> list[Point]:
-    """Return `samples` points spread over the box of each field's first and last value (two whole numbers: whole ones).
+    """Return `samples` points spread over the box of each field's first and last value (integers between two integers).
 
     McKay, Beckman, Conover, Technometrics 21 (1979), by scipy.stats.qmc.
 
@@ -143,8 +143,8 @@ def read_design(source: str) -> Design:
     }
     if empty := next((name for name, values in vary.items() if not values), None):
         raise ScenarioError(f"{source} vary.{empty}", "has no values", "give it one or more, or leave it out")
-    whole = {
-        name: _whole(source, name, table.get(name, default))
+    integers = {
+        name: _integer(source, name, table.get(name, default))
         for name, default in (("runs", 5), ("samples", 10), ("seed", 1))
     }
     mode = table.get("mode", "grid")
@@ -153,7 +153,7 @@ def read_design(source: str) -> Design:
     elif mode == "zip":
         varied = together(vary)
     elif mode == "latin-hypercube":
-        varied = latin_hypercube(vary, whole["samples"], whole["seed"])
+        varied = latin_hypercube(vary, integers["samples"], integers["seed"])
     else:
         raise ScenarioError(f"{source} mode", f"is {quoted(mode)}", "choose grid, zip or latin-hypercube")
     given = table.get("points", [{}])
@@ -167,7 +167,7 @@ def read_design(source: str) -> Design:
         raise ScenarioError(f"{source} scenario", f"is {quoted(base)}", 'name a preset or a file, such as "oceans2020"')
     if base not in presets():
         base = str(Path(source).resolve().parent / base)
-    return Design(base, tuple(points), whole["runs"])
+    return Design(base, tuple(points), integers["runs"])
 
 
 def _table(source: str, name: str, value: Any) -> dict[str, Any]:
@@ -176,7 +176,7 @@ def _table(source: str, name: str, value: Any) -> dict[str, Any]:
     return value
 
 
-def _whole(source: str, name: str, value: Any) -> int:
+def _integer(source: str, name: str, value: Any) -> int:
     least = 0 if name == "seed" else 1
     if type(value) is not int or not least <= value <= MOST_POINTS:
         raise ScenarioError(

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from shoal.core.errors import RecordError
-from shoal.core.files import write_whole
+from shoal.core.files import write_atomic
 from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.experiments.comparison import Condition, Standing
 from shoal.experiments.comparison_words import (
@@ -34,7 +34,7 @@ def write_page(board: Leaderboard, file: Path, named: Sequence[str] = ()) -> Non
     RecordError : the page has no markers, or cannot be read or written; it is as it was then
     """
     before, after = page_around(file, board.suite.name)
-    write_whole(file, f"{before}{BEGIN}\n{page_part(board, named)}\n{END}{after}".encode())
+    write_atomic(file, f"{before}{BEGIN}\n{page_part(board, named)}\n{END}{after}".encode())
 
 
 def page_around(file: Path, title: str) -> tuple[str, str]:
@@ -121,11 +121,11 @@ def _overview(board: Leaderboard) -> str:
 
 
 def _section(condition: SuiteCondition, found: Condition) -> str:
-    whole = f" / {condition.whole:g}" if condition.whole != 1 else ""
+    out_of = f" / {condition.out_of:g}" if condition.out_of != 1 else ""
     head = ["rank", "strategy", "share ± 95 %", "minus lattice", "adjusted p", "verdict"]
     rows = [[*_cells(each), each.verdict] for each in found.standings]
     says = condition.says[0].upper() + condition.says[1:]
-    return f"### {condition.name}\n\n{says}. Share: `{condition.metric}`{whole}.\n\n{_markdown(head, rows)}"
+    return f"### {condition.name}\n\n{says}. Share: `{condition.metric}`{out_of}.\n\n{_markdown(head, rows)}"
 
 
 def _cells(each: Standing) -> list[str]:

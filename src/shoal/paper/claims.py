@@ -10,6 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from shoal.experiments.replicate import Row
 from shoal.paper.cases import (
     Case,
     Truth,
@@ -28,11 +29,11 @@ from shoal.paper.cases import (
 )
 from shoal.paper.clusters import Episode
 from shoal.paper.curves import (
-    Curve,
     Floats,
     Interval,
-    Metric,
+    Measured,
     Peak,
+    RunCurve,
     bootstrap,
     cells,
     curve,
@@ -44,7 +45,7 @@ from shoal.paper.curves import (
     values_of,
 )
 from shoal.paper.plan import AGENTS, FULL_STEPS, MIXED, SHARE_NEIGHBORS, START_PLACES
-from shoal.paper.results import Claim, Row
+from shoal.paper.results import Claim
 
 SAME = 0.01  # a difference in time on target that does not matter
 SPREAD, SPREAD_DIGIT = 0.003, 0.0005  # C13: 0.3 %, and half of its last digit
@@ -140,7 +141,7 @@ def c6(rows: Sequence[Row]) -> Claim:
 def c7(rows: Sequence[Row]) -> Claim:
     """Cases: rise of the normalized Xi from no to all fast buoys (least squares), at each k up to 30 and speed."""
 
-    def cases_of(metric: Metric) -> list[Case]:
+    def cases_of(metric: Measured) -> list[Case]:
         shares = _shares([row for row in rows if row["neighbors"] <= 30], metric)
         return rising({place: AGENTS * slopes(each) for place, each in shares.items()})
 
@@ -168,7 +169,7 @@ def c9(rows: Sequence[Row]) -> Claim:
 
     speeds = values_of(rows, "target_speed")
 
-    def cases_of(metric: Metric, factor: float) -> list[Case]:
+    def cases_of(metric: Measured, factor: float) -> list[Case]:
         more: dict[str, Floats] = {}
         for fast, swarm in SWARMS.items():
             slow, quick = (curve(rows, metric, fast=fast, target_speed=speed) for speed in (speeds[0], speeds[-1]))
@@ -184,7 +185,7 @@ def c9(rows: Sequence[Row]) -> Claim:
 def c10(rows: Sequence[Row]) -> Claim:
     """Cases: stationary agents of the mixed less of the all-slow swarm at k = 20, at each speed."""
 
-    def cases_of(metric: Metric, factor: float) -> list[Case]:
+    def cases_of(metric: Measured, factor: float) -> list[Case]:
         gains = {speed: _gain(rows, speed, metric) for speed in values_of(rows, "target_speed")}
         return rising({f"{speed:g} m/s": factor * gain.at(20) for speed, gain in gains.items() if 20 in gain.x})
 
@@ -230,7 +231,7 @@ def c13(rows: Sequence[Row], steps: int) -> Claim:
     Undecided for runs shorter than the claim's.
     """
     cases, notes = [], []
-    told_by: dict[str, Metric] = {
+    told_by: dict[str, Measured] = {
         "time on target": "time_on_target",
         "Xi": "xi",
         "agents with phi > 0.7": heading_there,
@@ -308,17 +309,17 @@ def _claim(
     return Claim(id_, STATEMENTS[id_], measured, *key.number, unit, verdict_of(cases), figure, *count(cases))
 
 
-def _peak(rows: Sequence[Row], metric: Metric, fast: int, speed: float) -> Peak:
+def _peak(rows: Sequence[Row], metric: Measured, fast: int, speed: float) -> Peak:
     return peak(curve(rows, metric, fast=fast, target_speed=speed))
 
 
-def _gain(rows: Sequence[Row], speed: float, metric: Metric = "time_on_target", fast: int = MIXED) -> Curve:
+def _gain(rows: Sequence[Row], speed: float, metric: Measured = "time_on_target", fast: int = MIXED) -> RunCurve:
     """What fast buoys change over k, seed by seed."""
     mixed, slow = (curve(rows, metric, fast=count, target_speed=speed) for count in (fast, 0))
     return mixed.minus(slow)
 
 
-def _shares(rows: Sequence[Row], metric: Metric) -> dict[str, Curve]:
+def _shares(rows: Sequence[Row], metric: Measured) -> dict[str, RunCurve]:
     """The curves over the number of fast buoys, where two or more were run in either half."""
     curves = {
         _place(k, speed): curve(rows, metric, "fast", neighbors=k, target_speed=speed)

@@ -7,6 +7,7 @@ import numpy as np
 
 from shoal.drawing.legend import headroom
 from shoal.drawing.style import FLEET_COLORS, INK, new_figure, style
+from shoal.experiments.replicate import Row
 from shoal.paper.figures_peaks import PeakMark, peak_of
 from shoal.paper.figures_series import (
     ALL_SLOW,
@@ -24,7 +25,7 @@ from shoal.paper.figures_series import (
     where,
 )
 from shoal.paper.plan import AGENTS, MIXED
-from shoal.paper.results import Figure, Row
+from shoal.paper.results import Figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,9 +10,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from shoal.experiments.replicate import Row
 from shoal.paper.cases import Case, case_text, count, verdict_of
 from shoal.paper.curves import Floats, Interval, curve, intervals
-from shoal.paper.results import Claim, Row
+from shoal.paper.results import Claim
 from shoal.record.statistics import t_quantile
 
 PRESET = "aamas2020"

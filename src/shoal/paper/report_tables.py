@@ -6,8 +6,9 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
+from shoal.experiments.replicate import Row
 from shoal.paper.report_words import COLUMNS, METRICS
-from shoal.paper.results import Claim, Row
+from shoal.paper.results import Claim
 
 BADGES = {  # a sign and a class for each verdict: color is never the only one
     "holds": ("\u2713", "holds"),

@@ -13,7 +13,7 @@ from typing import Any, Self
 import numpy as np
 
 from shoal.core.errors import RecordError, reason_of
-from shoal.core.files import WholeFolder
+from shoal.core.files import AtomicFolder
 from shoal.core.version import RESULTS_VERSION
 from shoal.metrics.summary import Facts
 from shoal.metrics.tally import Tally
@@ -33,7 +33,7 @@ class RecordFolder:
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
-        self._whole = WholeFolder(folder, last="record.json")
+        self._whole = AtomicFolder(folder, last="record.json")
         self._writers: dict[str, TrajectoryWriter] = {}
 
     def __enter__(self) -> Self:

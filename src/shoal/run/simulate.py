@@ -30,7 +30,7 @@ from shoal.scenario.schema import Scenario
 OVERVIEW = 500  # frames of the first run kept over its whole length, unless asked otherwise
 TAIL = 300  # and of its last steps, all
 
-Progress = Callable[[int, int], None]
+ProgressCallback = Callable[[int, int], None]
 
 
 def simulate(
@@ -40,7 +40,7 @@ def simulate(
     jobs: int | None = None,
     every: int | None = None,
     out: str | Path | None = None,
-    progress: Progress | None = None,
+    progress: ProgressCallback | None = None,
     **changes: Any,
 ) -> Record:
     """Run a scenario and return its record.
@@ -116,7 +116,7 @@ class _Keep:
 
 
 def _run_all(
-    scenario: Scenario, first: Simulation, runs: int, jobs: int, keep: _Keep, progress: Progress
+    scenario: Scenario, first: Simulation, runs: int, jobs: int, keep: _Keep, progress: ProgressCallback
 ) -> list[tuple[Tally, Trajectory | None]]:
     stop = threading.Event()
     done, total, lock = 0, runs * scenario.steps, threading.Lock()

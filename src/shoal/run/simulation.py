@@ -160,11 +160,15 @@ class Simulation:
         return dict(arrays_of(self.moment)) | {"number": np.array(self.number)}
 
     def save(self, file: str | Path) -> None:
-        """Write the state to an .npz file, whole or not at all."""
+        """Write the state to a file (.npz), atomically."""
         write_state(file, self._identity(), self.state())
 
     def restore(self, file: str | Path) -> None:
         """Continue from a saved state of the same scenario, seed and run.
+
+        Parameters
+        ----------
+        file : what `save` wrote
 
         Raises
         ------

@@ -192,8 +192,8 @@ def _set_agents(table: Table, value: Any) -> None:
     if not isinstance(value, int) or value < 2:
         raise ScenarioError("agents", f"is {quoted(value)}", "give a number of agents, 2 or more")
     fleets = _fleets(table, "agents")
-    whole = sum(fleet["count"] for fleet in fleets)
-    exact = [Fraction(fleet["count"] * value, whole) for fleet in fleets]
+    agents = sum(fleet["count"] for fleet in fleets)
+    exact = [Fraction(fleet["count"] * value, agents) for fleet in fleets]
     counts = [int(share) for share in exact]
     for f in sorted(range(len(fleets)), key=lambda f: counts[f] - exact[f])[: value - sum(counts)]:
         counts[f] += 1

@@ -189,7 +189,12 @@ class Scenario(Frozen):
         return load(self, **changes)
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
-        """Return a copy with whole fields changed, validated; see `with_`, which knows shorthands and paths.
+        """Return a copy with fields changed, validated; see `with_`, which knows shorthands and paths.
+
+        Parameters
+        ----------
+        update : {field: value}, each value complete
+        deep : copy the values too
 
         Raises
         ------

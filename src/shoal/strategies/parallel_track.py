@@ -11,7 +11,7 @@ from typing import Annotated, NamedTuple
 from shoal.compiler.kernel import kernel
 from shoal.core.units import Range, Says
 from shoal.strategies.contract import strategy
-from shoal.strategies.parts import on_snake, rows_of, toward, way_point_reached
+from shoal.strategies.parts import on_snake, rows_of, toward, waypoint_reached
 
 
 class ParallelTrack(NamedTuple):
@@ -31,7 +31,7 @@ def decide(me, heard, memory, params, draw):
     """Parallel tracks; the area is divided by speed."""
     spacing = max(2.0 * me.briefing.reach * params.spacing, 1e-3 * me.briefing.half_x)
     x, y = corner(me, memory.leg, spacing)
-    if way_point_reached(me, x, y):
+    if waypoint_reached(me, x, y):
         memory.leg = (memory.leg + 1.0) % (4.0 * tracks_before(me, _ALL, spacing))
         x, y = corner(me, memory.leg, spacing)
     return toward(me, x, y)

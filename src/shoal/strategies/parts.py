@@ -9,7 +9,8 @@ from shoal.compiler.kernel import kernel, overload
 def inverse_power(me, other, exponent):
     """One term of the paper's repulsion without a_R^d: r_ij^-d (x_i - x_j) / r_ij  [m^-d]. OCEANS 2020, Eq. 4.
 
-    The softening keeps agents at the same place finite: they give no push, having no direction.
+    me : Own, other : Report, x, y [m]; exponent : d [-]. The softening keeps agents at the same place finite: they give
+    no push, having no direction.
     """
     dx = me.x - other.x
     dy = me.y - other.y
@@ -47,7 +48,11 @@ def _raised(base, exponent):
 
 @kernel
 def adapted(repulsion, contact, low, high, grow, shrink):
-    """a_R after Algorithm 1 of OCEANS 2020, to the letter: test, then step, so it can end a step outside its range."""
+    """a_R after Algorithm 1 of OCEANS 2020, to the letter: test, then step, so it can end a step outside its range.
+
+    repulsion, low, high : a_R and its range [m]; contact : whether the agent or a neighbor is on target; grow, shrink :
+    the steps of a_R without and with contact [m]
+    """
     if contact:
         return repulsion - shrink if repulsion > low else repulsion
     return repulsion + grow if repulsion < high else repulsion
@@ -71,8 +76,8 @@ def toward(me, x, y):
 
 
 @kernel
-def way_point_reached(me, x, y):
-    """Whether the agent can be at a waypoint within this step."""
+def waypoint_reached(me, x, y):
+    """Whether agent `me` can be at the waypoint (x, y) [m] within this step."""
     dx = x - me.x
     dy = y - me.y
     step = me.max_speed * me.time_step

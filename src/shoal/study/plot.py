@@ -96,6 +96,7 @@ def snapshot(
     links : draw a line to the k nearest others of each buoy
     trail : steps of the targets' trails (the buoys' are a third of it), 0 for none
     halos, sensors : draw discs of radius a_R, circles as wide as sensors reach
+    axes : matplotlib axes to draw into, in our look; default: a new figure
 
     Raises
     ------
@@ -125,6 +126,7 @@ def trajectory_map(
     run : number of a run that kept a trajectory; default the first of those
     start, steps, every : the steps shown; default the last in which the fastest buoy can cross the
         arena once
+    axes : matplotlib axes to draw into, in our look; default: a new figure
 
     Raises
     ------
@@ -139,7 +141,7 @@ def trajectory_map(
 def phi_histogram(
     records: AnyRecord | Sequence[AnyRecord] | Mapping[str, AnyRecord], *, axes: "Axes | None" = None
 ) -> "Figure":
-    """Who heads where relative to the target, Eq. 8: `plot.phi_histogram({"k = 10": low, "k = 40": high})`.
+    """Headings relative to the target, Eq. 8: `plot.phi_histogram({"k = 10": low, "k = 40": high})`.
 
     Parameters
     ----------
@@ -171,7 +173,13 @@ def phi_histogram(
 
 
 def time_on_target(record: AnyRecord, *, axes: "Axes | None" = None) -> "Figure":
-    """Time on target over the course of each run, its mean and interval: `plot.time_on_target(record)`."""
+    """Time on target over the course of each run, its mean and interval: `plot.time_on_target(record)`.
+
+    Parameters
+    ----------
+    record : a record or its folder
+    axes : matplotlib axes to draw into, in our look; default: a new figure
+    """
     record = _record(record)
     return _drawn(axes, (_CHART, _RIGHT, _TOP), lambda into: draw_batches(into, record))
 
@@ -192,6 +200,7 @@ def curves(
     x : field on the horizontal axis; default the numeric one with most values
     y : metric on the vertical axis
     hue : field that makes one curve per value; default the next field that varies
+    axes : matplotlib axes to draw into, in our look; default: a new figure
 
     Raises
     ------
@@ -230,7 +239,12 @@ def summary(record: AnyRecord) -> "Figure":
 
 
 def save(figure: "Figure", path: str | Path) -> None:
-    """Write a figure as .png, .svg or .pdf; the same figure gives the same bytes: `plot.save(figure, "fig.svg")`.
+    """Write a figure; the same figure gives the same bytes: `plot.save(figure, "fig.svg")`.
+
+    Parameters
+    ----------
+    figure : what a function of this module returned, or any matplotlib Figure
+    path : a file .png, .svg or .pdf
 
     Raises
     ------

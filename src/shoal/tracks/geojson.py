@@ -102,12 +102,12 @@ def _moving(
         yield _paired(place, times or [""] * len(positions), positions)
     elif geometry.get("type") == "MultiLineString":
         pieces = [_list(each) for each in positions]
-        whole = _list(times) or [[""] * len(piece) for piece in pieces]
-        if whole and not isinstance(whole[0], list):
-            whole, pieces = [whole], [[each for piece in pieces for each in piece]]
-        if len(whole) != len(pieces):
-            raise _unpaired(place, len(whole), len(pieces))
-        for some, piece in zip(whole, pieces, strict=True):
+        lists = _list(times) or [[""] * len(piece) for piece in pieces]
+        if lists and not isinstance(lists[0], list):
+            lists, pieces = [lists], [[each for piece in pieces for each in piece]]
+        if len(lists) != len(pieces):
+            raise _unpaired(place, len(lists), len(pieces))
+        for some, piece in zip(lists, pieces, strict=True):
             yield _paired(place, _list(some), piece)
 
 

@@ -43,7 +43,7 @@ def leaderboard_data(board: Leaderboard) -> dict[str, Any]:
                 "name": condition.name,
                 "says": condition.says,
                 "metric": condition.metric,
-                "whole": condition.whole,
+                "out_of": condition.out_of,
                 "changes": condition.changes,
                 "strategies": _standings(found),
             }

@@ -1,4 +1,4 @@
-"""Whole numbers are not rounded."""
+"""Integer numbers are not rounded."""
 
 import pytest
 
