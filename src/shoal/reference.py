@@ -77,7 +77,7 @@ class Paper:
         return ((x - target) ** 2).sum(axis=1) <= self.rho**2
 
     def turns(self, agents: int) -> Any:
-        """Who reads the swarm and moves together: all at once, on the state at t."""
+        """Agents that read the swarm and move together: all at once, on the state at t."""
         return [np.arange(agents)]
 
     def neighbors(self, x: Array, i: Array) -> Array:
@@ -109,7 +109,7 @@ class Paper:
         return reached, np.where(reached != x + v, reached - np.clip(x, -half, half), v)
 
     def phi(self, x: Array, v: Array, made: Array, target: Array) -> Array:
-        """Eq. 8: cosine between heading and bearing; 0 of who makes < 10 % of its top speed or is on the very spot."""
+        """Eq. 8: cosine between heading and bearing; 0 below 10 % of the top speed or exactly on the target."""
         bearing = target - x
         counts = (length(made) >= 0.1 * self.max_speed) & ((norm := length(v) * length(bearing)) > 0.0)
         return np.where(counts, np.clip((v * bearing).sum(axis=1) / np.where(counts, norm, 1.0), -1.0, 1.0), 0.0)

@@ -77,7 +77,7 @@ def film(
     sensors
         Draw how far each buoy senses.
     panels
-        Draw charts beside the arena: who heads where, how many are on target.
+        Draw charts beside the arena: headings, how many are on target.
     seed
         Of a scenario: seed of all chance.
     assignments

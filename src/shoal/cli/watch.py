@@ -188,6 +188,6 @@ def _announce(address: str, host: str, browser: bool) -> None:
 
     note(f"watch at {address} (Ctrl-C ends)")
     if not is_local(host):
-        note(f"everybody who reaches {host} can watch and control this run")
+        note(f"anybody who can reach {host} can watch and control this run")
     if browser:
         webbrowser.open(address)

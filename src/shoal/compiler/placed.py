@@ -13,7 +13,7 @@ Who owns what, and for how long:
 - The block is the Placed's, and so are the arrays that it points at, through `Placed.stage`. Both live as long as the
   Placed does: whoever hands the address to a kernel keeps the Placed until the kernel is back.
 - Arrays are shared: what a kernel writes into them, Python sees, and the other way round.
-- Numbers in the block are copies: who changes one (World, Radio) places the stage again.
+- Numbers in the block are copies: after a change of one (World, Radio) the stage is placed again.
 - Kernels own nothing. `part` reads arrays without counting references, which would cost more than a step; so a kernel
   must neither keep such an array nor return it to Python.
 

@@ -72,7 +72,7 @@ class UnknownNameError(ShoalError, KeyError):
 
 
 def no_attribute(owner: str, name: str, known: Iterable[str]) -> AttributeError:
-    """Return the error of an attribute that is not there: it says which are, and which was probably meant."""
+    """Return the error that `owner` has no attribute `name`: it lists those `known`, and the one meant."""
     names = list(known)
     return AttributeError(f"{owner} has no attribute {name!r}; {did_you_mean(name, names)}{_all(names)}", name=name)
 

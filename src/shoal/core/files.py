@@ -1,4 +1,4 @@
-"""Files and folders that are whole or not there, and nothing of somebody else's that is lost for them.
+"""Files and folders that are complete or absent, and nothing of somebody else's that is lost for them.
 
 What is written lies under a name that no two writers share, and takes its own when complete.
 """
@@ -69,7 +69,7 @@ def _is_marked(file: Path) -> bool:
 
 @contextmanager
 def atomic_file(path: str | Path, *, new: bool = False, ours: bool = False) -> Iterator[Path]:
-    """Yield a place to write to; what is there at the end becomes the file.
+    """Yield a place to write to; what it holds at the end becomes the file.
 
     If anything else ends the block, an interrupt too, nothing is left and what was there before is untouched.
 
@@ -96,7 +96,7 @@ def atomic_file(path: str | Path, *, new: bool = False, ours: bool = False) -> I
 
 
 def write_atomic(path: str | Path, content: bytes, *, ours: bool = False) -> None:
-    """Write a file that is either complete or not there; `ours` as `check_file`.
+    """Write a file that is either complete or absent; `ours` as `check_file`.
 
     Raises
     ------

@@ -19,7 +19,7 @@ def hides(character: str) -> bool:
 
 
 def plain(text: str, keep: str = "") -> str:
-    r"""Return a text as it can be shown anywhere: characters that hide become \x1b and alike, but for those to keep."""
+    r"""Return a text as it can be shown anywhere: hidden characters become \x1b and the like, except those to keep."""
     if text.isascii() and text.isprintable():
         return text
     return "".join(each if each in keep or not hides(each) else ascii(each)[1:-1] for each in text)

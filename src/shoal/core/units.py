@@ -34,7 +34,7 @@ class Unit:
     def parse(self, value: Any) -> Any:
         """Return `value` in the unit's SI scale.
 
-        Numbers pass through unchanged, but for those so small that their squares would vanish; "5 kn" is converted.
+        Numbers pass through unchanged, except those so small that their squares would vanish; "5 kn" is converted.
 
         Raises
         ------

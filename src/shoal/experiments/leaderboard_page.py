@@ -27,7 +27,7 @@ BEGIN, END = "<!-- shoal compare: begin -->", "<!-- shoal compare: end -->"
 
 
 def write_page(board: Leaderboard, file: Path, named: Sequence[str] = ()) -> None:
-    """Replace what is between the two markers of a page; a page that is not there is begun.
+    """Replace what is between the two markers of a page; a missing page is begun.
 
     Raises
     ------

@@ -42,7 +42,7 @@ class Store:
 
     Parameters
     ----------
-    folder : where it is or shall be
+    folder : where it is or will be
     identity : what the sweep runs; a store made by another sweep refuses it
     read_only : look only, needs no identity
 

@@ -200,6 +200,6 @@ def _number(value: Any) -> float | None:
 
 
 def _sum_of(values: dict[str, Any]) -> str:
-    """SHA-256 of a row's values but for its checksum."""
+    """SHA-256 of a row's values, its checksum excepted."""
     rest = {name: value for name, value in values.items() if name != "checksum"}
     return hashlib.sha256(json.dumps(rest, sort_keys=True, separators=(",", ":")).encode()).hexdigest()

@@ -143,7 +143,7 @@ class Simulation:
 
     @contextmanager
     def edit(self) -> Iterator[State]:
-        """Open the state for changes by hand; when the block ends, who is on target is decided again.
+        """Open the state for changes by hand; when the block ends, on_target is recomputed.
 
         >>> with simulation.edit() as now:
         ...     now.swarm.x[:2] = 0.0

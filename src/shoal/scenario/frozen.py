@@ -28,7 +28,7 @@ class Frozen(BaseModel):
             return super().model_copy(deep=deep)
         return self._validated({**vars(self), **update})
 
-    if not TYPE_CHECKING:  # type checkers shall go on to know what there is
+    if not TYPE_CHECKING:  # hidden from type checkers, which know the names
 
         def __setattr__(self, name: str, value: Any) -> None:
             part = type(self).__name__

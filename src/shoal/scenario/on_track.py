@@ -60,7 +60,7 @@ def put_on_track(
 def sign_tracks(table: dict[str, Any]) -> dict[str, Any]:
     """Return the table with the digest of each recorded track, as it is read with the options that the table has.
 
-    A digest that is there already stays, also one of None, which insists on nothing.
+    A digest that is already given stays, as does one of None, which demands nothing.
 
     Raises
     ------

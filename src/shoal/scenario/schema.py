@@ -79,7 +79,7 @@ class Fleet(Frozen):
         default=1.0, description="chance per step that an agent notices a target within its reach"
     )
     false_alarm_probability: Chance = Field(
-        default=0.0, description="chance per step that an agent reports a target that is not there"
+        default=0.0, description="chance per step that an agent reports an absent target"
     )
     mean_lifetime: Annotated[Seconds, Positive] | None = Field(
         default=None, description="agents fail at a constant rate, after this time on average [s]; default: never"
@@ -109,7 +109,7 @@ class AdaptiveDegree(Frozen):
 class Loss(Frozen):
     """Agents that are lost at a step, chosen by lot."""
 
-    step: Count = Field(description="they are not there from this step on")
+    step: Count = Field(description="they are absent from this step on")
     count: Count = Field(description="number of agents")
     fleet: str | None = Field(default=None, description="of which fleet; default: of any")
 

@@ -86,7 +86,7 @@ class LevyTarget(MovingTarget):
 
 
 class EvasiveTarget(MovingTarget):
-    """Flees from the buoys that it sees and from walls; wanders else."""
+    """Flees from the buoys that it sees and from walls; otherwise wanders."""
 
     kind: Literal["evasive"] = "evasive"
     sight: Annotated[Meters, NotNegative] = Field(description="it flees from buoys nearer than this [m]")
@@ -119,7 +119,7 @@ class TrackTarget(Frozen):
     id: str | None = Field(default=None, description='which track of the file, as "COLUMN=VALUE"; "all" joins all')
     radius: Annotated[Meters, NotNegative] = Field(description="rho: size of the target [m]")
     max_gap: Annotated[Seconds, Positive] | None = Field(
-        default=None, description="in a longer silence the target is not there [s]; default from the data"
+        default=None, description="in a longer silence the target is absent [s]; default from the data"
     )
     max_speed: Annotated[MetersPerSecond, Positive] = Field(
         default=40.0, description="a faster jump between two fixes is a GPS error [m/s]"

@@ -2,7 +2,7 @@
 
 Blackwell and Bentley, "Dynamic search with charged swarms", GECCO 2002: a_i = sum_j Q_i Q_j / r_ij^3 (x_i - x_j) for
 p_core <= r_ij <= p, the strength at the core inside it, nothing beyond the perception limit p. All are charged alike;
-the attraction is to the neighborhood's best only, for a personal best is a place where the target no longer is.
+the attraction is to the neighborhood's best only, since a personal best is a place where the target no longer is.
 """
 
 import math

@@ -6,7 +6,7 @@ hears of its k nearest neighbors where they are and whether they are on target, 
 1. Without contact, agents wait on the stations of an even cover.
 2. Each keeps an estimate of the target (position, velocity, speed), moves it on from step to step and corrects it by
    what one bit says. Whoever is on target, the agent or its leader, has the target within reach: an estimate beyond is
-   drawn to the rim. Who is not has it outside: an estimate within is pushed to the rim. An agent that has just come on
+   drawn to the rim. For the others it is outside: an estimate within is pushed to the rim. An agent just come on
    target has it on its rim. Every correction turns the estimated velocity and, slowly, changes the estimated speed.
 3. While the contact is fresh, agents leave their stations for a ring around the estimate, each on the side of its own
    station and at a distance from the others: together they see the target wherever around the estimate it is, and what

@@ -2,7 +2,7 @@
 
 IAMSAR Manual, vol. II (IMO/ICAO), chapter 5: expanding square (SS): legs of d, d, 2d, 2d, 3d, 3d ... with a right turn
 after each, d the track spacing, until the square is as large as the agent's part, which is as large as its share of the
-summed top speeds; one round at least. By the book: who sees a target carries on.
+summed top speeds; one round at least. By the book: an agent that sees a target carries on.
 """
 
 import math

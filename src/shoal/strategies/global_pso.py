@@ -1,7 +1,7 @@
 """Plain global-best PSO: everybody hears everybody, nobody keeps apart.
 
 Kennedy and Eberhart, "Particle swarm optimization", ICNN 1995, with the inertia of Shi and Eberhart, "A modified
-particle swarm optimizer", ICEC 1998; without memory, for the optimum moves.
+particle swarm optimizer", ICEC 1998; without memory, since the optimum moves.
 """
 
 from typing import Annotated, NamedTuple

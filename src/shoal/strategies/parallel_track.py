@@ -3,7 +3,7 @@
 IAMSAR Manual, vol. II (IMO/ICAO), chapter 5: parallel sweep (PS). The area is cut into rows, and a snake through them
 into parts as large as the agents' shares of the summed top speeds, so that all finish together. Tracks run across the
 snake, one track spacing apart at most, half of it from the ends of the part in each row; they end a sensor's reach
-before the edges of the row. By the book: who sees a target carries on.
+before the edges of the row. By the book: an agent that sees a target carries on.
 """
 
 from typing import Annotated, NamedTuple

@@ -3,7 +3,7 @@
 IAMSAR Manual, vol. II (IMO/ICAO), chapter 5: sector search (VS): legs of one radius out of the datum, across and back
 through it, turns of 120 degrees to the right, so that three triangles meet in the datum; the next pattern is turned by
 30 degrees. The disc is as large as the agent's part of the area, which is its share of the summed top speeds; at the
-edge of the area it is cut off. By the book: who sees a target carries on.
+edge of the area it is cut off. By the book: an agent that sees a target carries on.
 """
 
 import math

@@ -62,7 +62,7 @@ def __dir__() -> list[str]:
     return __all__
 
 
-if not TYPE_CHECKING:  # type checkers shall go on to know what there is
+if not TYPE_CHECKING:  # hidden from type checkers, which know the names
 
     def __getattr__(name: str) -> Any:
         raise no_attribute("shoal.plot", name, __all__)

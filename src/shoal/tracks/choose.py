@@ -23,7 +23,7 @@ def choose(path: Path, table: Table, wanted: Wanted, day_first: bool | None) -> 
 
     Raises
     ------
-    TrackError : the file holds several tracks and none is named, the one that is named is not there, or a value
+    TrackError : the file holds several tracks and none is named, the one that is named is missing, or a value
         cannot be read
     """
     rows = np.arange(len(table.line))

@@ -22,7 +22,7 @@ from shoal.tracks.wanted import parse_wanted
 SHORTEST_MAX_GAP = 300.0  # [s]
 USUAL_INTERVALS_PER_GAP = 5.0
 SETTLED = 2.0  # [s] a file that changed less long ago may change again within one tick of its clock
-REMEMBERED = 8  # tracks: who follows one reads it for the arena and again for the run
+REMEMBERED = 8  # tracks: one that is followed is read for the arena and again for the run
 
 
 def read_track(
