@@ -1,5 +1,6 @@
 """How hypothesis searches, and who compiles."""
 
+import os
 import signal
 from contextlib import suppress
 
@@ -17,6 +18,10 @@ settings.register_profile(
 )
 settings.register_profile("search", settings.get_profile("repeatable"), derandomize=False)
 settings.load_profile("repeatable")
+
+# As the command line does: before numpy is imported, here and in every child. Threads of several workers that all wait
+# for each other made the smallest matrix forty times slower on a busy machine.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 
 def pytest_configure(config):

@@ -8,6 +8,7 @@ from typing import Any
 
 def main() -> None:
     """Run the command line and exit; docs/reference/cli.md has the codes."""
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # matrices are small, and runs have threads of their own
     heeded = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # not under nohup
     if heeded:
         signal.signal(signal.SIGINT, _leave)  # while what is imported below takes half a second
