@@ -97,7 +97,7 @@ class TestStore:
         monkeypatch.setattr("shoal.experiments.run_comparison.sweep", interrupted)
         code, out, err = shoal(capsys, "compare", "knn-pso", *SHORT, "--out", "s")
         assert (code, out) == (130, "")
-        assert "the same command goes on from there" in err
+        assert "the same command continues from there" in err
 
     def test_failed_runs_are_told_and_left_out(self, capsys):
         Path("mine.py").write_text(MINE.format(velocity="0.0 / max(0.0, 19.85 - me.time), 0.0"))  # at the last step

@@ -56,7 +56,7 @@ def film(
     steps
         Steps shown, from --start, or the last ones of a record. Default: of a scenario 600; of a record all.
     every
-        Show every so many-th step; default 1, or what the record kept.
+        Show every n-th step; default 1, or what the record kept.
     step
         With .png: the step to show.
     seconds

@@ -102,7 +102,7 @@ def plot(
 def _tell_of(rows: list[dict[str, Any]]) -> None:
     """Say what the numbers do not: which results version they are of, and which runs gave none."""
     if not rows:
-        note("no run has ended yet; the same shoal sweep command goes on")
+        note("no run has ended yet; the same shoal sweep command continues it")
         return
     tell_of_version(rows[0]["results_version"])
     failed = [row["error"] for row in rows if row["status"] == "failed"]

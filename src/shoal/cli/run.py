@@ -66,7 +66,7 @@ def run(
     assignments
         Any field by its path, such as strategy.delta=0.02 or fleets.BoB-1.start=corner; may be repeated.
     every
-        With --out, keep every so many-th step of every run; default an overview of the first run and its last steps.
+        With --out, keep every n-th step of every run; default an overview of the first run and its last steps.
     out
         Save the record to this new folder.
     figure

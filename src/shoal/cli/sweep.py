@@ -62,7 +62,7 @@ def sweep(
     until_ci
         Add replicates to each combination until the 95 % interval of its time on target is narrower than this.
     max_runs
-        But no more than so many.
+        The most replicates of each combination then.
     independent
         Give every combination a seed of its own.
     retry_failed

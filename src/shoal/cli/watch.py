@@ -1,4 +1,4 @@
-"""shoal watch: a run in the browser while it goes on."""
+"""shoal watch: a run in the browser as it runs."""
 
 import webbrowser
 from contextlib import suppress
@@ -38,7 +38,7 @@ def watch(
     browser: bool = True,
     out: Path | None = None,
 ) -> None:
-    """Watch a run in the browser and change it while it goes on. Ctrl-C ends it.
+    """Watch a run in the browser and change it as it runs. Ctrl-C ends it.
 
     Parameters
     ----------

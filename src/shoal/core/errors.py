@@ -78,7 +78,7 @@ def no_attribute(owner: str, name: str, known: Iterable[str]) -> AttributeError:
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return the question whether a known name was meant, a space behind it; nothing if none is near.
+    """Return the question whether a known name was meant, a space after it; empty if none is near.
 
     Near is the path that ends in it, or else what is spelt alike, what has these initials, the only one with this part.
     """

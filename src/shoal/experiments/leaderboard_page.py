@@ -78,7 +78,7 @@ def page_part(board: Leaderboard, named: Sequence[str] = ()) -> str:
 
 
 def standing_still(board: Leaderboard) -> str:
-    """Say for every condition whom the motionless lattice beats, and to whom no difference is shown."""
+    """Say for every condition what the motionless lattice beats, and where no difference is shown."""
     ranked = sum(each.rank is not None for each in board.overall.standings)
     first = [each.name for each in board.shares.conditions if each.of(LATTICE).rank == 1]
     lines = [

@@ -113,7 +113,7 @@ def open_tracks(scenario: Scenario) -> list[Track]:
 
 
 def build_targets(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Any, Tracks]:
-    """One record per target; the fixes of recorded ones behind each other."""
+    """One record per target; the fixes of recorded ones one after the other."""
     targets = np.zeros(len(scenario.targets), TARGET).view(np.recarray)
     unread = list(tracks)
     first_fix = 0

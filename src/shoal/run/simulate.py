@@ -52,7 +52,7 @@ def simulate(
     scenario : what to run: a preset's name, a TOML file, a dict or a Scenario
     runs : independent replicates, R; replicate r of two scenarios with one seed shares its chance
     jobs : threads, one run each; default: one per core
-    every : keep the frame of every so many-th step of every run; default: an overview of the first run
+    every : keep the frame of every n-th step of every run; default: an overview of the first run
     out : write the record to this new folder; trajectories stream there, so memory does not grow with steps
     progress : called as progress(steps done, steps in all) from time to time, from any thread
     changes : to the scenario, in the words of the command line, as in `Scenario.with_`

@@ -103,7 +103,7 @@ class Simulation:
             self._begin(self._in_place().address, self._minds, self.crew.params)
 
     def advance(self, steps: int, *, every: int | None = None, tail: int | None = None) -> Trajectory | None:
-        """Run so many steps; with `every`, return the frames of every so many-th step and of all from step `tail` on.
+        """Run a number of steps; with `every`, return the frames of every n-th step and of all from step `tail` on.
 
         Memory and results do not depend on how a run is cut into calls. When a call is back the state is true: agents
         are on target that are where they stand now.

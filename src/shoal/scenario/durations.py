@@ -1,4 +1,4 @@
-"""How long a run is: so many steps, or a duration such as "2 h"."""
+"""How long a run is: a number of steps, or a duration such as "2 h"."""
 
 import math
 import re

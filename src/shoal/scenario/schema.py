@@ -107,7 +107,7 @@ class AdaptiveDegree(Frozen):
 
 
 class Loss(Frozen):
-    """Agents that are lost at a step, chosen by lot."""
+    """Agents that are lost at a step, chosen at random."""
 
     step: Count = Field(description="they are absent from this step on")
     count: Count = Field(description="number of agents")
@@ -123,7 +123,7 @@ class Join(Frozen):
 
 
 class Network(Frozen):
-    """Who hears whom, and what gets lost on the way."""
+    """Which agents hear which, and what gets lost."""
 
     neighbors: Degree = Field(description='k: every agent hears its k nearest others, or "all"')
     range: Annotated[Meters, Positive] | None = Field(

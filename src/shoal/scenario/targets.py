@@ -52,7 +52,7 @@ class WaypointTarget(MovingTarget):
     kind: Literal["waypoint"] = "waypoint"
     max_turn: Annotated[Degrees, Field(gt=0, le=180)] = Field(default=20.0, description="largest turn in a step [deg]")
     waypoint_reach: Annotated[Meters, Positive] = Field(description="a new waypoint is taken when closer than this [m]")
-    waypoint_patience: Count = Field(default=200, description="or after so many steps on the same one")
+    waypoint_patience: Count = Field(default=200, description="or after this many steps on the same one")
 
 
 class LineTarget(MovingTarget):

@@ -102,7 +102,7 @@ def own_station(me, spread):
 def station(i, agents, half_x, half_y):
     """Place of agent i in the most even cover of a box of +- half_x, half_y by rows [m].
 
-    Rows differ by one agent at most. Agents go to every so many-th place, so that a fleet, whose ids follow each other,
+    Rows differ by one agent at most. Agents go to every n-th place, so that a fleet, whose ids follow each other,
     is spread over the whole box.
     """
     place = (i * _stride(agents)) % agents
