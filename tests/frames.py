@@ -9,8 +9,8 @@ GAUGES = ("time_on_target", "recent", "xi", "xi_now", "engaged")
 
 def decode(data):
     """The frame at the beginning of some bytes; `size` is where it ends."""
-    version, run, epoch, step, agents, targets, zero = struct.unpack_from("<BBHIIII", data)
-    assert (version, zero) == (1, 0)
+    version, run, epoch, step, agents, targets, link_bytes = struct.unpack_from("<BBHIIII", data)
+    assert version == 2
     place = struct.calcsize("<BBHIIII")
 
     def take(letter, count):
@@ -28,6 +28,8 @@ def decode(data):
     bits = take("B", agents)
     frame.on_target, frame.alive = [bool(each & 1) for each in bits], [bool(each & 2) for each in bits]
     frame.present = [bool(each & 1) for each in take("B", targets)]
+    rows = [take("B", link_bytes) for _ in range(agents)]
+    frame.hears = [[bool(row[j // 8] >> (j % 8) & 1) for j in range(agents)] for row in rows] if link_bytes else None
     frame.size = place
     return frame
 

@@ -18,7 +18,7 @@ choose clean cli client command compare compared compiled compiler compiling con
 dataframe dataset declared difference disc dive drag drawing duration each edit effort encoder ended error executor
 experiment export extra figure file film folder format frontier frozen geojson gpx graph ground guard histogram info
 inner installed interval is kept keyword kill kml label layout legend listen listing live load lock locked look main
-map mark meaning measure message meta meter metric missing move moving name named netcdf new nmea no now numba older
+map mark meaning measure message meta metric missing move moving name named netcdf new nmea no now numba older
 one option output over page paired panel param pause picture place placement plain play plot plugin print private
 progress published quantity range read recorded reproduce restart result robustness running said saved say schema
 scored seek seen self sensing sensitivity sensor server several shoal show side signal simulate simulation size stamp

@@ -33,7 +33,7 @@ def test_the_example_runs():
     (code,) = re.findall(r"```python\n(.*?)```", PAGE, flags=re.DOTALL)
     scope = {}
     exec(code.replace("20_000", "20"), scope)
-    assert scope["record"].scenario["network"]["loss"] == 0.1
+    assert scope["record"].scenario.network.loss == 0.1
 
 
 def test_the_version_is_one():

@@ -82,6 +82,42 @@ class TestRecords:
         assert after.summary() == before.summary()
 
 
+class TestFormat2:
+    """A record of the format before, whose frames say less: what it does not hold is derived, or said to be missing."""
+
+    @pytest.fixture
+    def older(self, tmp_path):
+        return shutil.copytree(DATA / "format-2" / "record", tmp_path / "older")
+
+    def test_what_can_be_derived_is_what_the_engine_says_today(self, older):
+        kept, today = open_record(older), open_record(DATA / f"results-v{RESULTS_VERSION}" / "record")
+        frames, now = kept.trajectories[0], today.trajectories[0]
+        for name in ("x", "engaged", "neighbors"):
+            assert np.array_equal(getattr(frames, name), getattr(now, name)), name
+        for name, values in today.roster._asdict().items():
+            assert np.array_equal(getattr(kept.roster, name), values), name
+
+    def test_links_are_not_made_up(self, older, capsys, tmp_path):
+        code, _, err = shoal(capsys, "film", older, "--out", tmp_path / "s.png", "--links")
+        assert code == 2
+        assert "keep no links: an older Shoal wrote them" in err
+        assert shoal(capsys, "replay", older, "--out", tmp_path / "p.html")[0] == 0
+        assert '"has_links":false' in (tmp_path / "p.html").read_text()
+
+    def test_it_can_be_saved_again_in_the_format_of_today(self, older, tmp_path):
+        before = open_record(older)
+        save_record(before, tmp_path / "copy")
+        after = open_record(tmp_path / "copy")
+        assert json.loads((tmp_path / "copy" / "record.json").read_text())["format"] == 3
+        for name, values in before.trajectories[0].arrays().items():
+            assert np.array_equal(after.trajectories[0].arrays()[name], values), name
+
+    def test_its_scenario_is_a_scenario(self, older):
+        scenario = open_record(older).scenario
+        assert (scenario.name, scenario.agents, scenario.network.neighbors) == ("tiny", 5, 2)
+        assert scenario == load(str(DATA / "tiny.toml"))
+
+
 @pytest.mark.parametrize("name", ["sweep", "compare"])
 class TestStores:
     def test_the_numbers_are_those_that_were_written(self, kept, version, name):

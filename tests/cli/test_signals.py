@@ -68,7 +68,7 @@ def test_watch_keeps_the_record_of_what_was_watched(tmp_path, number):
     code, said = ended(tmp_path, number, _watched, *tokens)
     assert code == 0  # that is how watching ends
     assert "record: w, " in said
-    assert open_record(tmp_path / "w").scenario["steps"] > 0
+    assert open_record(tmp_path / "w").scenario.steps > 0
     assert [each.name for each in tmp_path.iterdir()] == ["w"]
 
 

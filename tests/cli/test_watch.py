@@ -109,7 +109,7 @@ class TestRecording:
         assert code == 0
         assert f"{steps:,} of 100,000 steps" in told
         assert 0 < steps < 1000
-        assert record.scenario["steps"] == steps == record.tallies[0].steps.sum()
+        assert record.scenario.steps == steps == record.tallies[0].steps.sum()
 
     def test_a_folder_that_exists_is_refused_at_once(self, capsys, tmp_path):
         (tmp_path / "r").mkdir()

@@ -5,8 +5,11 @@ import pytest
 
 from shoal.metrics.summary import Facts
 from shoal.metrics.tally import BINS, new_tally
+from shoal.record.older import roster_from
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
+from shoal.scenario.recorded import RecordedFleet, RecordedScenario, RecordedStrategy, RecordedTarget
+from shoal.scenario.schema import Area, Network
 
 pytest.importorskip("matplotlib", reason="matplotlib is not installed")
 
@@ -38,9 +41,26 @@ def trajectory(agents, targets=1, frames=STEPS):
     target_y = np.repeat(np.linspace(-5, 5, frames)[:, None], targets, axis=1)
     return Trajectory(
         step=np.arange(frames), x=x, y=np.zeros(shape), vx=np.zeros(shape), vy=np.zeros(shape),
-        on_target=np.zeros(shape, bool), alive=np.ones(shape, bool),
+        command_x=np.zeros(shape), command_y=np.zeros(shape),
+        on_target=np.zeros(shape, bool), engaged=np.zeros(shape, bool), alive=np.ones(shape, bool),
+        neighbors=np.ones(shape, np.int64), links=np.zeros((*shape, -(-agents // 8)), np.uint8),
         target_x=np.zeros((frames, targets)), target_y=target_y,
         target_present=np.ones((frames, targets), bool), memory={},
+    )  # fmt: skip
+
+
+def by_hand(**table):
+    """A scenario as a record tells it, of fewer agents than can run, too."""
+    return RecordedScenario.model_construct(
+        losses=(), joins=(), description="", seed=7, motion=None,
+        **table
+        | {
+            "area": Area(**table["area"]),
+            "fleets": tuple(RecordedFleet(**fleet) for fleet in table["fleets"]),
+            "network": Network(**table["network"]),
+            "strategy": RecordedStrategy(table["strategy"]),
+            "targets": tuple(RecordedTarget(**target) for target in table["targets"]),
+        },
     )  # fmt: skip
 
 
@@ -55,12 +75,22 @@ def make_record():
         names = [f"make {fleet}" for fleet in range(len(counts))]
         speeds = [2.0 / (1 + fleet) for fleet in range(len(counts))]
         width, height, margin = area
+        scenario = by_hand(
+            name="by-hand",
+            time_step=0.1,
+            steps=STEPS,
+            area={"width": width, "height": height, "agent_margin": margin},
+            fleets=[
+                {"name": name, "count": count, "max_speed": speed}
+                for name, count, speed in zip(names, counts, speeds, strict=True)
+            ],
+            network={"neighbors": min(1, sum(counts) - 1) or "all"},
+            strategy={"name": "knn-pso"},
+            targets=targets,
+        )
         return Record(
-            scenario={
-                "name": "by-hand", "steps": STEPS, "area": {"width": width, "height": height, "agent_margin": margin},
-                "fleets": [{"name": name, "neighbors": None, "sensor_radius": 0.0} for name in names],
-                "network": {"neighbors": 1, "range": None}, "strategy": {"name": "knn-pso"}, "targets": targets,
-            },
+            scenario=scenario,
+            roster=roster_from(scenario),
             facts=Facts(tuple(names), tuple(counts), tuple(speeds), max(width, height) / 20, 0.1),
             tallies=tuple(tally(counts, on_target=on_target[run % 2], present=present) for run in range(runs)),
             provenance={"seed": 7, "scenario_hash": "0123456789abcdef", "versions": {"shoal": "9.9.9"}},

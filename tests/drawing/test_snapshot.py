@@ -7,7 +7,6 @@ import pytest
 
 from shoal.core.errors import RecordError
 from shoal.drawing.arena import round_length
-from shoal.drawing.links import nearest_pairs
 from shoal.drawing.snapshot import draw_snapshot
 from shoal.drawing.trails import consecutive
 
@@ -42,10 +41,14 @@ class TestAgents:
         assert fast.get_linewidths()[0] > fast.get_linewidths()[1]
 
     def test_links_are_drawn_when_asked_for(self, axes, make_record, marks):
-        record = make_record(counts=(3, 2))
-        record.scenario["network"]["neighbors"] = 4
-        draw_snapshot(axes, record, links=True)
-        assert len(marks(axes, "links")[0].get_segments()) == 10  # all pairs of five
+        links = np.zeros((40, 5, 1), np.uint8)
+        links[-1, 0], links[-1, 1], links[-1, 4] = 0b00110, 0b00001, 0b00001  # 0 hears 1 and 2; 1 and 4 hear 0
+        draw_snapshot(axes, with_frames(make_record(counts=(3, 2)), links=links), links=True)
+        assert len(marks(axes, "links")[0].get_segments()) == 3  # a line where both hear each other, too
+
+    def test_links_that_were_not_kept_are_not_made_up(self, axes, make_record):
+        with pytest.raises(RecordError, match="keep no links"):
+            draw_snapshot(axes, with_frames(make_record(), links=np.zeros((40, 5, 0), np.uint8)), links=True)
 
     def test_no_links_otherwise(self, axes, make_record, marks):
         draw_snapshot(axes, make_record())
@@ -145,16 +148,3 @@ class TestConsecutive:
 
     def test_frames_far_apart_leave_one(self):
         assert consecutive(np.arange(0, 50, 10), 4, 9) == slice(4, 5)
-
-
-class TestNearestPairs:
-    """Who hears whom, each pair once."""
-
-    def test_agrees_with_sorting_all_distances(self):
-        x, y = np.random.default_rng(1).random((2, 30))
-        distance = np.hypot(x[:, None] - x, y[:, None] - y) + np.diag(np.full(30, np.inf))
-        expected = {tuple(sorted((i, int(j)))) for i in range(30) for j in np.argsort(distance[i])[:4]}
-        assert {tuple(pair) for pair in nearest_pairs(x, y, 4).tolist()} == expected
-
-    def test_two_agents_are_one_pair(self):
-        assert nearest_pairs(np.array([0.0, 1.0]), np.zeros(2), 1).tolist() == [[0, 1]]

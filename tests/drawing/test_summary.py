@@ -91,7 +91,7 @@ class TestWords:
 
     def test_names_are_no_formulas(self, make_record):
         record = make_record()
-        record.scenario["name"] = "$x_1$ $\\undefined$"
+        vars(record.scenario)["name"] = "$x_1$ $\\undefined$"
         summary_figure(record).draw_without_rendering()
 
 

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -16,7 +18,7 @@ def seen():
 def changed(record: Record, **arrays) -> Record:
     """The record with other arrays in its trajectory."""
     frames = Trajectory.from_arrays(record.trajectories[0].arrays() | arrays)
-    return Record(record.scenario, record.facts, record.tallies, record.provenance, {0: frames})
+    return replace(record, trajectories={0: frames})
 
 
 def flat(record: Record, value: float) -> np.ndarray:
@@ -36,12 +38,12 @@ class TestWatch:
 class TestLocked:
     def quiet(self, seen: Record) -> dict:
         """Everybody moves, nobody pushes hardest, agent 49 is always on target."""
-        on_target = np.zeros_like(seen.trajectories[0].on_target)
+        on_target = np.zeros_like(seen.trajectories[0].engaged)
         on_target[:, 49] = True
         return {
             "vx": flat(seen, 1.0),
             "vy": flat(seen, 0.0),
-            "on_target": on_target,
+            "engaged": on_target,
             "memory.repulsion": flat(seen, 1.0),
         }
 
@@ -72,16 +74,16 @@ class TestLocked:
         for frame, agents in ((5, 2), (9, 3)):
             arrays["memory.repulsion"][frame, :agents] = 1.5
             arrays["vx"][frame, :agents] = 0.0
-        arrays["on_target"][9] = False
+        arrays["engaged"][9] = False
         assert find_locked(changed(seen, **arrays)).frame == 5
 
 
 class TestClustering:
     def breathing(self, seen: Record, widths: np.ndarray) -> Record:
         """Buoys in a row, as far apart as `widths` says; somebody is on target from frame 10 on."""
-        on_target = np.zeros_like(seen.trajectories[0].on_target)
+        on_target = np.zeros_like(seen.trajectories[0].engaged)
         on_target[10:, 0] = True
-        return changed(seen, x=widths[:, np.newaxis] * np.arange(50.0), y=flat(seen, 0.0), on_target=on_target)
+        return changed(seen, x=widths[:, np.newaxis] * np.arange(50.0), y=flat(seen, 0.0), engaged=on_target)
 
     def test_finds_the_closest_frame_on_target_and_the_first_one_apart_again(self, seen):
         widths = np.full(STEPS, 1.0)

@@ -39,10 +39,11 @@ def all_of(folder):
     arrays = {
         f"{run}.{name}": part for run, tally in enumerate(record.tallies) for name, part in tally._asdict().items()
     }
+    arrays |= {f"roster.{name}": part for name, part in record.roster._asdict().items()}
     for run, trajectory in record.trajectories.items():
         arrays |= {f"frames.{run}.{name}": part for name, part in trajectory.arrays().items()}
     numbers = {name: (str(part.dtype), part.shape, part.tobytes()) for name, part in arrays.items()}
-    return numbers, [record.facts._asdict(), record.scenario, record.provenance]
+    return numbers, [record.facts._asdict(), record.scenario.model_dump(mode="json"), record.provenance]
 
 
 def outcome(folder, right):

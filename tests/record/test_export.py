@@ -115,7 +115,7 @@ class TestMetrics:
         assert [name for name in METRICS if dataset[name].dims != ("run",)] == []
 
     def test_every_number_has_a_unit(self, at_sea):
-        labels = {"run", "batch", "crs", "on_target", "target_is_present"}
+        labels = {"run", "batch", "crs", "on_target", "is_engaged", "target_is_present"}
         labels |= {f"{who}_{what}" for who in ("trajectory", "target") for what in ("run", "number")}
         dataset = to_xarray(at_sea)
         silent = {
@@ -128,7 +128,7 @@ class TestProvenance:
     """The dataset says where it comes from."""
 
     def test_scenario_and_provenance_are_kept_in_full(self, record, dataset):
-        assert json.loads(dataset.attrs["scenario"]) == record.scenario
+        assert json.loads(dataset.attrs["scenario"]) == record.scenario.model_dump(mode="json")
         assert json.loads(dataset.attrs["provenance"]) == record.provenance
 
     def test_title_source_and_conventions_are_plain_text(self, record, dataset):
@@ -186,9 +186,10 @@ class TestTrajectories:
             dataset.memory_repulsion.values[AGENTS:].T, record.trajectories[1].memory["repulsion"]
         )
 
-    def test_memory_of_a_strategy_that_is_not_loaded_has_no_unit(self, record, monkeypatch):
+    def test_memory_of_a_strategy_that_is_not_loaded_has_no_unit(self, record, monkeypatch, tmp_path):
+        shoal.save_record(record, tmp_path / "record")
         monkeypatch.delitem(CATALOGUE, "knn-pso")
-        assert "units" not in to_xarray(record).memory_repulsion.attrs
+        assert "units" not in to_xarray(shoal.open_record(tmp_path / "record")).memory_repulsion.attrs
 
     def test_a_truth_is_a_flag_that_explains_itself(self, dataset):
         assert dataset.on_target.dtype == np.int8

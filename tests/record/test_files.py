@@ -71,9 +71,7 @@ class TestRoundTrip:
         assert isinstance(open_record(saved).trajectories[0].x, np.memmap)
 
     def test_the_scenario_in_it_runs_again_to_the_same_numbers(self, record, saved):
-        from shoal.scenario.load import scenario_from
-
-        again = simulate(scenario_from(open_record(saved).scenario), runs=3)
+        again = simulate(open_record(saved).scenario, runs=3)
         assert again.estimate("xi") == record.estimate("xi")
 
     def test_record_json_is_plain_json(self, record, saved):
@@ -167,7 +165,14 @@ class TestFailure:
         (half / "x.npy").write_bytes(b"half")
         (tmp_path / "record" / ".shoal.lock").write_text("process 1")
         save_record(record, tmp_path / "record")
-        assert left_in(tmp_path / "record") == ["record.json", "run-0000", "run-0001", "run-0002", "tallies.npz"]
+        assert left_in(tmp_path / "record") == [
+            "record.json",
+            "roster.npz",
+            "run-0000",
+            "run-0001",
+            "run-0002",
+            "tallies.npz",
+        ]
 
     def test_a_folder_of_the_users_called_partial_is_left_alone(self, record, tmp_path):
         (tmp_path / "record.partial").mkdir()
@@ -193,7 +198,7 @@ class TestTwoWriters:
         assert first.tallies[0].on_target.tobytes() == alone.tallies[0].on_target.tobytes()
         assert first.trajectories[0].x.tobytes() == alone.trajectories[0].x.tobytes()
         assert left_in(tmp_path) == ["dup"]
-        assert left_in(tmp_path / "dup") == ["record.json", "run-0000", "tallies.npz"]
+        assert left_in(tmp_path / "dup") == ["record.json", "roster.npz", "run-0000", "tallies.npz"]
 
 
 def cut(path, size):
@@ -207,6 +212,8 @@ DAMAGES = {
     "record.json no object": lambda folder: (folder / "record.json").write_text("[1, 2]"),
     "record.json with facts of another shape": lambda folder: (folder / "record.json").write_text('{"facts": [1]}'),
     "record.json in bytes that are no text": lambda folder: (folder / "record.json").write_bytes(b"\xff\xfe\x00"),
+    "roster.npz missing": lambda folder: (folder / "roster.npz").unlink(),
+    "roster.npz cut short": lambda folder: cut(folder / "roster.npz", 500),
     "tallies.npz missing": lambda folder: (folder / "tallies.npz").unlink(),
     "tallies.npz empty": lambda folder: cut(folder / "tallies.npz", 0),
     "tallies.npz cut short": lambda folder: cut(folder / "tallies.npz", 500),

@@ -191,7 +191,7 @@ class TestCopies:
     def test_a_right_copy_runs(self, paper):
         copied = paper.model_copy(update={"strategy": "lattice", "network": {"neighbors": 10}})
         assert (copied.strategy.name, copied.network.neighbors) == ("lattice", 10)
-        assert shoal.simulate(copied).scenario["strategy"]["name"] == "lattice"
+        assert shoal.simulate(copied).scenario.strategy.name == "lattice"
 
     @pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda each: pickle.loads(pickle.dumps(each))])
     def test_copies_without_a_change_are_equal_and_run(self, paper, again):

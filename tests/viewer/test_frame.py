@@ -1,35 +1,41 @@
 """A frame as bytes: what is packed comes out of a decoder that knows only the protocol's page."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from frames import decode
+from shoal.core.links import link_bytes
+from shoal.record.trajectory import Trajectory
 from shoal.viewer.frame import Gauges, pack
 
+GAUGES = Gauges(0.5, float("nan"), 0.25, 0.75, 7.0, np.arange(11.0))
 
-def packed(agents, targets, seed=0, **changes):
+
+def trajectory(agents, targets, seed=0):
+    """A frame of chance, step 123,456."""
     chance = np.random.default_rng(seed)
-    what = {
-        "run": 1,
-        "epoch": 3,
-        "step": 123_456,
-        "gauges": Gauges(0.5, float("nan"), 0.25, 0.75, 7.0, np.arange(11.0)),
-        "agents": {
-            **{name: chance.normal(size=agents) for name in ("x", "y", "vx", "vy", "repulsion")},
-            "degree": chance.integers(1, 10_000, agents),
-            "on_target": chance.random(agents) < 0.5,
-            "alive": chance.random(agents) < 0.5,
-        },
-        "targets": {
-            "x": chance.normal(size=targets),
-            "y": chance.normal(size=targets),
-            "present": chance.random(targets) < 0.5,
-        },
-        **changes,
-    }
-    return what, pack(**what)
+    numbers = {name: chance.normal(size=(1, agents)) for name in ("x", "y", "vx", "vy", "command_x", "command_y")}
+    truths = {name: chance.random((1, agents)) < 0.5 for name in ("on_target", "engaged", "alive")}
+    return Trajectory(
+        step=np.array([123_456]),
+        **numbers,
+        **truths,
+        neighbors=chance.integers(1, 10_000, (1, agents)),
+        links=chance.integers(0, 256, (1, agents, link_bytes(agents))).astype(np.uint8),
+        target_x=chance.normal(size=(1, targets)),
+        target_y=chance.normal(size=(1, targets)),
+        target_present=chance.random((1, targets)) < 0.5,
+        memory={"repulsion": chance.normal(size=(1, agents))},
+    )
+
+
+def packed(agents, targets, seed=0, epoch=3):
+    what = trajectory(agents, targets, seed)
+    return what, pack(what, 0, run=1, epoch=epoch, gauges=GAUGES)
 
 
 class TestPack:
@@ -37,15 +43,18 @@ class TestPack:
     def test_everything_comes_back(self, agents, targets, seed):
         what, data = packed(agents, targets, seed)
         frame = decode(data)
-        assert frame.size == len(data) == 84 + 23 * agents + 9 * targets
+        assert frame.size == len(data) == 84 + (23 + -(-agents // 8)) * agents + 9 * targets
         assert (frame.run, frame.epoch, frame.step) == (1, 3, 123_456)
-        for name in ("x", "y", "vx", "vy", "repulsion"):
-            assert getattr(frame, name) == [float(np.float32(each)) for each in what["agents"][name]]
-        assert frame.degree == list(what["agents"]["degree"])
-        assert frame.on_target == list(what["agents"]["on_target"])
-        assert frame.alive == list(what["agents"]["alive"])
-        assert frame.target_x == [float(np.float32(each)) for each in what["targets"]["x"]]
-        assert frame.present == list(what["targets"]["present"])
+        for name in ("x", "y", "vx", "vy", "target_x", "target_y"):
+            assert getattr(frame, name) == np.float32(getattr(what, name)[0]).tolist()
+        assert frame.repulsion == np.float32(what.memory["repulsion"][0]).tolist()
+        assert frame.degree == what.neighbors[0].tolist()
+        assert frame.on_target == what.on_target[0].tolist()
+        assert frame.alive == what.alive[0].tolist()
+        assert frame.present == what.target_present[0].tolist()
+        for i in range(agents):
+            for j in range(agents):
+                assert frame.hears[i][j] == bool(what.links[0, i, j // 8] & (1 << j % 8))
 
     def test_gauges_stand_in_the_order_of_the_protocol(self):
         frame = decode(packed(3, 1)[1])
@@ -56,6 +65,10 @@ class TestPack:
     def test_epochs_are_counted_modulo_65536(self):
         assert decode(packed(2, 1, epoch=65_536 + 5)[1]).epoch == 5
 
-    @pytest.mark.parametrize("agents", [50, 10_000])
-    def test_an_agent_costs_23_bytes(self, agents):
-        assert len(packed(agents, 1)[1]) == 93 + 23 * agents
+    def test_a_strategy_without_repulsion_has_none(self):
+        what = replace(trajectory(3, 1), memory={})
+        assert np.isnan(decode(pack(what, 0, run=0, epoch=0, gauges=GAUGES)).repulsion).all()
+
+    @pytest.mark.parametrize(("agents", "each"), [(50, 23 + 7), (512, 23 + 64), (513, 23), (10_000, 23)])
+    def test_an_agent_costs_so_many_bytes(self, agents, each):
+        assert len(packed(agents, 1)[1]) == 93 + each * agents

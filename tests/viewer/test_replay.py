@@ -3,6 +3,7 @@
 import base64
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -52,7 +53,7 @@ class TestReplayPage:
         assert "<script>alert" not in page
 
     def test_a_record_without_frames_is_refused(self, small_page, record):
-        empty = type(record)(record.scenario, record.facts, record.tallies, record.provenance)
+        empty = replace(record, trajectories={})
         with pytest.raises(RecordError, match="keeps no frames"):
             replay_page(empty)
 

@@ -5,14 +5,13 @@ import json
 import pytest
 
 from scenarios import scenario
-from shoal.run.facts import facts_of
 from shoal.strategies import CATALOGUE
 from shoal.viewer.scene import as_json, describe, scene_of
 
 
 def scene(changes=None, memory=("repulsion",)):
     chosen = scenario(changes=changes)
-    return scene_of(chosen.model_dump(mode="json"), facts_of(chosen), memory, epoch=2, since=40)
+    return scene_of(chosen, memory, has_links=True, epoch=2, since=40)
 
 
 class TestSceneOf:

@@ -95,8 +95,8 @@ class TestTheWall:
     @pytest.mark.parametrize("preset", ["oceans2020", "aamas2020"])
     def test_power_is_no_more_than_all_at_top_speed_take(self, preset):
         record = simulate(load(preset).model_copy(update={"steps": 20}), runs=3)
-        for fleet in record.scenario["fleets"]:
-            assert record.fleet_estimate("power")[fleet["name"]].mean <= fleet["max_speed"] ** 3
+        for fleet in record.scenario.fleets:
+            assert record.fleet_estimate("power")[fleet.name].mean <= fleet.max_speed**3
 
 
 class TestWaypointTarget:

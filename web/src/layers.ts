@@ -3,7 +3,7 @@
 import { ticks, type Camera } from "./camera";
 import { fastestFleet, styleOf } from "./fleets";
 import { fixed } from "./format";
-import type { Pairs } from "./neighbors";
+import type { Pairs } from "./links";
 import { fleetColor, fleetMarker, TARGET_COLOR, traceMarker, type Theme } from "./palette";
 import { isAlive, isOnTarget, isPresent, type Frame, type Scene } from "./protocol";
 

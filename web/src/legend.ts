@@ -10,7 +10,6 @@ export class Legend {
   readonly root = el("ul", { class: "legend", "aria-label": "Legend" });
   private readonly gone = el("li", { hidden: true });
   private readonly goneText = document.createTextNode("");
-  private readonly unlinked = el("li", { hidden: true });
 
   describe(scene: Scene): void {
     this.root.replaceChildren();
@@ -23,15 +22,13 @@ export class Legend {
       this.add(glyph("target", TARGET_COLOR, disc, svg("path", { d: "M-3 0H3M0-3V3", stroke: "currentColor" })), words);
     }
     this.gone.replaceChildren(glyph("gone", "currentColor", svg("path", { d: "M-4-4L4 4M-4 4L4-4" })), this.goneText);
-    this.root.append(this.gone, this.unlinked);
+    this.root.append(this.gone);
   }
 
-  /** Agents that are gone, or have not joined yet; links that are too many to draw. */
-  note(gone: number, unlinked: number): void {
+  /** Agents that are gone, or have not joined yet. */
+  note(gone: number): void {
     this.gone.hidden = gone === 0;
     this.goneText.data = `${count(gone)} not there`;
-    this.unlinked.hidden = unlinked === 0;
-    this.unlinked.textContent = `${count(unlinked)} links are too many to draw`;
   }
 
   private add(picture: SVGElement, words: string): void {

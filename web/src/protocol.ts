@@ -37,6 +37,7 @@ export interface Scene {
   range: number | null; // [m]
   strategy: { name: string; params: Record<string, unknown>; summary: string };
   has_repulsion: boolean;
+  has_links: boolean;
   metrics?: Metric[];
   history?: { step: number[]; time_on_target: (number | null)[]; xi: (number | null)[] };
 }
@@ -129,10 +130,12 @@ export interface Frame {
   degree: Uint16Array; // (N) k
   flags: Uint8Array; // (N)
   present: Uint8Array; // (T)
+  linkBytes: number; // W of each agent, 0 where links were not kept
+  links: Uint8Array; // (N x W) bit j % 8 of byte j / 8 of an agent is set where it heard j in this step
 }
 
 export const PHI_BINS = 11;
-const VERSION = 1;
+const VERSION = 2;
 const HEAD = 84; // bytes before the agents
 const ON_TARGET = 1;
 const ALIVE = 2;
@@ -145,7 +148,7 @@ export class ProtocolError extends Error {}
 
 /** Decode one frame; throws ProtocolError on anything else. */
 export function decodeFrame(bytes: ArrayBuffer): Frame {
-  const { agents, targets, size } = readSize(new DataView(bytes));
+  const { agents, targets, linkBytes, size } = readSize(new DataView(bytes));
   if (bytes.byteLength !== size) {
     throw new ProtocolError(`a frame of ${agents} agents has ${size} bytes, not ${bytes.byteLength}`);
   }
@@ -181,6 +184,8 @@ export function decodeFrame(bytes: ArrayBuffer): Frame {
     degree: new Uint16Array(bytes, offset, agents),
     flags: new Uint8Array(bytes, offset + 2 * agents, agents),
     present: new Uint8Array(bytes, offset + 3 * agents, targets),
+    linkBytes,
+    links: new Uint8Array(bytes, offset + 3 * agents + targets, agents * linkBytes),
   };
 }
 
@@ -210,11 +215,12 @@ export function parseMessage(text: string): Message {
   throw new ProtocolError(`the engine sent a message of unknown type ${String(type)}`);
 }
 
-function readSize(view: DataView): { agents: number; targets: number; size: number } {
+function readSize(view: DataView): { agents: number; targets: number; linkBytes: number; size: number } {
   if (view.byteLength < HEAD) throw new ProtocolError(`a frame has at least ${HEAD} bytes, not ${view.byteLength}`);
   const version = view.getUint8(0);
   if (version !== VERSION) throw new ProtocolError(`frames have format ${version}; this page reads format ${VERSION}`);
   const agents = view.getUint32(8, true);
   const targets = view.getUint32(12, true);
-  return { agents, targets, size: HEAD + 23 * agents + 9 * targets };
+  const linkBytes = view.getUint32(16, true);
+  return { agents, targets, linkBytes, size: HEAD + (23 + linkBytes) * agents + 9 * targets };
 }

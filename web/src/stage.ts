@@ -5,7 +5,7 @@ import { el } from "./dom";
 import { count, fixed, time } from "./format";
 import * as layers from "./layers";
 import { Legend } from "./legend";
-import { nearestPairs, type Pairs } from "./neighbors";
+import { heardBy, linkedPairs, type Pairs } from "./links";
 import type { Theme } from "./palette";
 import { isAlive, isOnTarget, isPresent, type Frame, type Scene } from "./protocol";
 import type { Tape } from "./tape";
@@ -24,11 +24,9 @@ export interface Point {
   y: number;
 }
 
-const MOST_LINKS = 150_000; // agents x k; more is a gray sheet, slowly drawn
 const LONGEST_GLIDE = 250; // [ms]
 const LONGEST_JUMP = 0.3; // of the area's longer side; what moves farther between two frames is not seen to glide
 const REACH = 8 / 3; // arena units that the fastest agent covers in the length of a trail; targets' are three times it
-const NO_PAIRS: Pairs = new Uint32Array(0);
 
 export class Stage {
   readonly root: HTMLElement;
@@ -49,7 +47,6 @@ export class Stage {
   private readonly water: HTMLElement;
   private readonly scenes = new Map<number, Scene>();
   private readonly reduced = matchMedia("(prefers-reduced-motion: reduce)");
-  private unlinked = 0; // links that are too many
   private pairs: { frame: Frame; pairs: Pairs } | null = null;
   private stale = true;
   private size = { width: 0, height: 0 };
@@ -109,7 +106,7 @@ export class Stage {
     const state = there ? `${fixed(frame.engaged, 0)} on target` : "no target is there";
     this.moment.textContent = `Step ${count(frame.step)} · ${time(frame.step * scene.time_step)} · ${state}`;
     const gone = frame.x.length - this.livingAgents();
-    this.legend.note(gone, this.unlinked);
+    this.legend.note(gone);
     if (playing) return; // a label that changes all the time is read out all the time
     const words = `${count(frame.x.length - gone)} buoys, ${state}`;
     this.canvas.setAttribute("aria-label", `Map of the swarm${this.letter && `, run ${this.letter}`}: ${words}`);
@@ -143,15 +140,14 @@ export class Stage {
     if (look.sensors) layers.drawSensors(brush, moment);
     if (look.halos) layers.drawHalos(brush, moment);
     this.links = 0;
-    if (!look.links) this.unlinked = 0;
-    else {
-      const pairs = this.findPairs(frame, scene);
+    if (look.links) {
+      const pairs = this.findPairs(frame);
       this.links = pairs.length / 2;
       layers.drawLinks(brush, moment, pairs);
     }
     if (look.trails) layers.drawTrails(brush, { ...moment, past: this.trail(moment.past) }, size);
     layers.drawTargets(brush, look.trails ? moment : { ...moment, past: [] });
-    if (this.picked !== null) layers.drawPicked(brush, moment, this.picked, this.heardBy(this.picked), size);
+    if (this.picked !== null) layers.drawPicked(brush, moment, this.picked, heardBy(frame, this.picked), size);
     if (look.headings) layers.drawHeadings(brush, moment, size);
     layers.drawAgents(brush, moment, size);
     if (this.crosshair) layers.drawCrosshair(brush, this.crosshair);
@@ -197,7 +193,7 @@ export class Stage {
     const parts = [
       `${scene.fleets[layers.fleetOf(scene, agent)].name} no. ${agent}`,
       `${fixed(Math.hypot(frame.vx[agent], frame.vy[agent]), 2)} m/s`,
-      `hears ${frame.degree[agent]}`,
+      scene.has_links ? `hears ${heardBy(frame, agent).length / 2} (k ${frame.degree[agent]})` : `k ${frame.degree[agent]}`,
     ];
     if (Number.isFinite(frame.repulsion[agent])) parts.push(`a_R ${fixed(frame.repulsion[agent], 3)} m`);
     if (isOnTarget(frame, agent)) parts.push("on target");
@@ -276,19 +272,9 @@ export class Stage {
     return past.filter((each) => each.step >= first);
   }
 
-  private findPairs(frame: Frame, scene: Scene): Pairs {
-    if (this.pairs?.frame === frame) return this.pairs.pairs;
-    const wanted = frame.degree.reduce((sum, degree) => sum + Math.min(degree, frame.x.length), 0);
-    this.unlinked = wanted > MOST_LINKS ? wanted : 0;
-    const pairs = this.unlinked ? NO_PAIRS : nearestPairs(frame, scene.range, (agent) => isAlive(frame, agent));
-    this.pairs = { frame, pairs };
-    return pairs;
-  }
-
-  private heardBy(agent: number): Pairs {
-    const frame = this.frame!;
-    const degree = frame.degree.map((each, other) => (other === agent ? each : 0));
-    return nearestPairs({ ...frame, degree }, this.scene!.range, (other) => isAlive(frame, other));
+  private findPairs(frame: Frame): Pairs {
+    if (this.pairs?.frame !== frame) this.pairs = { frame, pairs: linkedPairs(frame) };
+    return this.pairs.pairs;
   }
 
   private markerSize(agents: number): number {

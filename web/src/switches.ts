@@ -5,12 +5,13 @@ import type { Scene } from "./protocol";
 import type { Look } from "./stage";
 
 const SWITCHES: { name: keyof Look; words: string; key: string }[] = [
-  { name: "links", words: "Links to the k nearest", key: "L" },
+  { name: "links", words: "Links: who hears whom", key: "L" },
   { name: "halos", words: "Spacing a_R (halo)", key: "H" },
   { name: "sensors", words: "Sensor discs", key: "S" },
   { name: "headings", words: "Headings", key: "V" },
   { name: "trails", words: "Trails", key: "P" },
 ];
+const KEPT = 512; // agents whose links the engine keeps
 const MANY = 300; // agents from which links are a gray sheet unless asked for
 
 export class Switches {
@@ -35,6 +36,7 @@ export class Switches {
   describe(scenes: Scene[]): void {
     const agents = Math.max(...scenes.map((scene) => scene.fleets.reduce((sum, fleet) => sum + fleet.count, 0)));
     if (!this.asked) this.apply("links", agents <= MANY);
+    this.allow("links", scenes.some((scene) => scene.has_links), agents > KEPT ? `kept of up to ${KEPT} buoys` : "this record keeps none");
     this.allow("halos", scenes.some((scene) => scene.has_repulsion), "this strategy has no a_R");
     const sensing = scenes.some((scene) => scene.fleets.some((fleet) => fleet.sensor_radius > 0));
     this.allow("sensors", sensing, "sensor radius 0 m: buoys detect by touch");

@@ -10,6 +10,7 @@ export interface Made {
   flags?: number[];
   targets?: [number, number, number][]; // x, y [m], present
   version?: number;
+  links?: number[][]; // a row of bytes for each agent
   measures?: number[];
 }
 
@@ -17,14 +18,16 @@ export function makeFrame(made: Made): ArrayBuffer {
   const x = made.x ?? [0, 1];
   const agents = x.length;
   const targets = made.targets ?? [[2, 3, 1]];
-  const bytes = new ArrayBuffer(84 + 23 * agents + 9 * targets.length);
+  const links = made.links ?? [];
+  const bytes = new ArrayBuffer(84 + 23 * agents + 9 * targets.length + links.flat().length);
   const view = new DataView(bytes);
-  view.setUint8(0, made.version ?? 1);
+  view.setUint8(0, made.version ?? 2);
   view.setUint8(1, made.run ?? 0);
   view.setUint16(2, made.epoch ?? 0, true);
   view.setUint32(4, made.step ?? 0, true);
   view.setUint32(8, agents, true);
   view.setUint32(12, targets.length, true);
+  view.setUint32(16, links[0]?.length ?? 0, true);
   (made.measures ?? []).forEach((value, n) => view.setFloat32(20 + 4 * n, value, true));
   let at = 84;
   const floats = (values: number[]): void => values.forEach((value) => (view.setFloat32(at, value, true), (at += 4)));
@@ -36,5 +39,6 @@ export function makeFrame(made: Made): ArrayBuffer {
   for (const degree of made.degree ?? x.map(() => 1)) (view.setUint16(at, degree, true), (at += 2));
   for (const flags of made.flags ?? x.map(() => 2)) view.setUint8(at++, flags);
   for (const target of targets) view.setUint8(at++, target[2]);
+  for (const byte of links.flat()) view.setUint8(at++, byte);
   return bytes;
 }

@@ -9,7 +9,7 @@ describe("A frame", () => {
     const frame = decodeFrame(
       makeFrame({
         run: 1, epoch: 7, step: 70000, x: [1.5, -2.5, 4], y: [0.5, 1, 2], degree: [2, 1, 600], flags: [3, 2, 1],
-        targets: [[8, -8, 1], [1, 2, 0]], measures,
+        targets: [[8, -8, 1], [1, 2, 0]], measures, links: [[6], [1], [0]],
       }),
     );
     assert.deepEqual([frame.run, frame.epoch, frame.step], [1, 7, 70000]);
@@ -20,6 +20,7 @@ describe("A frame", () => {
     assert.deepEqual([...frame.vx, ...frame.vy, ...frame.repulsion], [0, 1, 2, 10, 11, 12, 20, 21, 22]);
     assert.deepEqual([...frame.targetX, ...frame.targetY], [8, 1, -8, 2]);
     assert.deepEqual([...frame.degree], [2, 1, 600]);
+    assert.deepEqual([frame.linkBytes, ...frame.links], [1, 6, 1, 0]);
   });
 
   it("tells who is on target, who is alive and which target is there", () => {
@@ -30,7 +31,7 @@ describe("A frame", () => {
   });
 
   it("of another format, or of the wrong length, is refused", () => {
-    assert.throws(() => decodeFrame(makeFrame({ version: 2 })), ProtocolError);
+    assert.throws(() => decodeFrame(makeFrame({ version: 1 })), ProtocolError);
     assert.throws(() => decodeFrame(makeFrame({}).slice(0, -1)), ProtocolError);
     assert.throws(() => decodeFrame(new ArrayBuffer(3)), ProtocolError);
   });
@@ -38,7 +39,7 @@ describe("A frame", () => {
 
 describe("Frames one behind the other", () => {
   it("are cut where each ends, wherever that is in memory", () => {
-    const made = [makeFrame({ step: 0 }), makeFrame({ step: 5, x: [1, 2, 3], targets: [] }), makeFrame({ step: 9 })];
+    const made = [makeFrame({ step: 0 }), makeFrame({ step: 5, x: [1, 2, 3], targets: [], links: [[6], [1], [0]] }), makeFrame({ step: 9 })];
     const joined = new Uint8Array(made.flatMap((each) => [...new Uint8Array(each)]));
     assert.deepEqual(splitFrames(joined).map((each) => decodeFrame(each).step), [0, 5, 9]);
   });

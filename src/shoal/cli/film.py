@@ -69,7 +69,7 @@ def film(
     run
         Number of the run shown.
     links
-        Draw a line to the k nearest others of each buoy.
+        Draw a line between buoys of which one really hears the other.
     trails
         Draw where buoys and targets were.
     halos
@@ -134,13 +134,12 @@ def _filmed(
     """Run a scenario, a little before `start` for the trails; return the first step shown, and the record."""
     from shoal.drawing.footage import footage
     from shoal.drawing.scene import trail_steps
-    from shoal.run.facts import facts_of
     from shoal.scenario.load import scenario_from
 
     scenario = scenario_from(table, where=source)
     start = -(-start // every) * every
     steps = min(_STEPS, max(scenario.steps - start, 1)) if steps is None else steps
-    lead = min(start, -(-trail_steps(facts_of(scenario)) // every) * every)
+    lead = min(start, -(-trail_steps(scenario) // every) * every)
     tell_of_compiling(scenario)
     with progress_bar(f"{scenario.name}, {start + steps:,} steps") as progress:
         return start, footage(scenario, steps + lead, start=start - lead, every=every, run=run, progress=progress)

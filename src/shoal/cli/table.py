@@ -1,7 +1,6 @@
 """A record as a table that fits a terminal."""
 
 import textwrap
-from collections.abc import Mapping
 from typing import Any
 
 from rich.table import Table
@@ -12,7 +11,8 @@ from shoal.metrics.summary import METRICS
 from shoal.record.record import Record
 from shoal.record.statistics import Estimate
 from shoal.record.words import interval_text, mean_text
-from shoal.scenario.choices import degree_text, strategy_text
+from shoal.scenario.choices import degree_text, speed_of, strategy_text
+from shoal.scenario.schema import Scenario
 
 _LABELS = {
     "time_on_target": "time on target",
@@ -36,12 +36,13 @@ def print_record(record: Record) -> None:
         f"{count} {plain(name)} ({speed:g} m/s{_joining(scenario, name)})"
         for name, count, speed in zip(facts.fleets, facts.counts, facts.max_speeds, strict=True)
     )
-    targets = ", ".join(_target(target) for target in scenario["targets"])
+    targets = ", ".join(_target(target) for target in scenario.targets)
+    degrees = degree_text(scenario, record.roster.by_fleet("neighbors"))
     runs = len(record.tallies)
-    console.print(styled(plain(scenario["name"]), "bold") + styled(f": {fleets}, k = {degree_text(scenario)}", ""))
+    console.print(styled(plain(scenario.name), "bold") + styled(f": {fleets}, k = {degrees}", ""))
     console.print(f"strategy {strategy_text(scenario)}; target {targets}")
     console.print(
-        f"{runs} run{'s' * (runs > 1)} of {scenario['steps']:,} steps of {scenario['time_step']:g} s, "
+        f"{runs} run{'s' * (runs > 1)} of {scenario.steps:,} steps of {scenario.time_step:g} s, "
         f"seed {record.provenance['seed']}, scenario {record.provenance['scenario_hash']}"
     )
     table = Table(box=None, padding=(0, 2, 0, 0))
@@ -49,7 +50,7 @@ def print_record(record: Record) -> None:
         width = None if title else 28  # of labels: long names of fleets are cut, not numbers
         table.add_column(title, justify=justify, no_wrap=True, max_width=width)  # type: ignore[arg-type]
     for name, metric in METRICS.items():
-        if len(scenario["targets"]) > 1 or name not in _OF_SEVERAL_TARGETS:
+        if len(scenario.targets) > 1 or name not in _OF_SEVERAL_TARGETS:
             table.add_row(_label(name), *_cells(record.estimate(name)), _unit(metric.unit))
     _add_parts(table, record)
     console.print(table)
@@ -83,16 +84,16 @@ def _add_parts(table: Table, record: Record) -> None:
         table.add_row("  recovery", *_cells(change["recovery"]), "s")
 
 
-def _joining(scenario: Mapping[str, Any], fleet: str) -> str:
-    count = sum(each["count"] for each in scenario["joins"] if each["fleet"] == fleet)
+def _joining(scenario: Scenario, fleet: str) -> str:
+    count = sum(each.count for each in scenario.joins if each.fleet == fleet)
     return f"; {count} of them join later" if count else ""
 
 
 def _change(record: Record, step: int) -> str:
     """How many agents are lost and join at a step."""
     counts = {
-        words: sum(each["count"] for each in record.scenario[kind] if each["step"] == step)
-        for kind, words in (("losses", "lost"), ("joins", "join"))
+        words: sum(each.count for each in changes if each.step == step)
+        for changes, words in ((record.scenario.losses, "lost"), (record.scenario.joins, "join"))
     }
     return ", ".join(f"{count} {words}" for words, count in counts.items() if count)
 
@@ -109,9 +110,8 @@ def _cells(value: Estimate) -> tuple[str, str]:
     return mean_text(value), interval_text(value)
 
 
-def _target(target: dict[str, object]) -> str:
-    if target["kind"] == "waypoint":
-        return f"at {target['speed']:g} m/s"
-    if "speed" in target:
-        return f"{target['kind']} at {target['speed']:g} m/s"
-    return plain(f"{target['kind']} {target.get('id') or ''}".strip())
+def _target(target: Any) -> str:
+    speed = speed_of(target)
+    if speed is None:
+        return plain(f"{target.kind} {getattr(target, 'id', None) or ''}".strip())
+    return f"at {speed:g} m/s" if target.kind == "waypoint" else f"{target.kind} at {speed:g} m/s"

@@ -1,7 +1,6 @@
 """The empty stage of a snapshot: edge, clamp, axes in m or km, scale bar."""
 
 import math
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,6 +8,7 @@ import numpy.typing as npt
 
 from shoal.drawing.style import GRAY, INK
 from shoal.drawing.words import length_text
+from shoal.scenario.schema import Area
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,15 +17,15 @@ KILOMETERS_FROM = 2000.0  # [m] longer side from which axes count in km
 PAD = 0.025  # of the longer side, around the arena
 
 
-def draw_arena(axes: "Axes", area: Mapping[str, Any], pad: float = PAD) -> None:
+def draw_arena(axes: "Axes", area: Area, pad: float = PAD) -> None:
     """Draw the edge and, dashed, the line that agents are kept inside of; equal scales [m], ticks in m or km.
 
     Parameters
     ----------
-    area : width, height, agent_margin [m], as in a scenario
+    area : of a scenario
     pad : room around the arena, as a share of the longer side
     """
-    width, height, margin = area["width"], area["height"], area["agent_margin"]
+    width, height, margin = area.width, area.height, area.agent_margin
     _rectangle(axes, width, height, color=GRAY, linewidth=1.0, fill=True)
     if margin > 0:
         _rectangle(axes, width - 2 * margin, height - 2 * margin, color=GRAY, linewidth=0.7, linestyle=(0, (4, 3)))
@@ -61,10 +61,10 @@ def draw_scale_bar(axes: "Axes", points: npt.NDArray[np.float64]) -> None:
     )  # fmt: skip
 
 
-def arena_aspect(area: Mapping[str, Any], pad: float = PAD) -> float:
+def arena_aspect(area: Area, pad: float = PAD) -> float:
     """Width / height of what axes show of an arena."""
-    room = 2 * pad * max(area["width"], area["height"])
-    return float((area["width"] + room) / (area["height"] + room))
+    room = 2 * pad * max(area.width, area.height)
+    return float((area.width + room) / (area.height + room))
 
 
 def round_length(limit: float) -> float:
@@ -73,9 +73,9 @@ def round_length(limit: float) -> float:
     return max(digit for digit in (1.0, 2.0, 5.0) if digit * power <= limit * (1 + 1e-9)) * power
 
 
-def in_kilometers(area: Mapping[str, Any]) -> bool:
+def in_kilometers(area: Area) -> bool:
     """Whether an arena is shown in km."""
-    return bool(max(area["width"], area["height"]) > KILOMETERS_FROM)
+    return bool(max(area.width, area.height) > KILOMETERS_FROM)
 
 
 def _rectangle(axes: "Axes", width: float, height: float, *, color: str, fill: bool = False, **line: Any) -> None:

@@ -9,7 +9,6 @@ import numpy.typing as npt
 from shoal.drawing.legend import headroom
 from shoal.drawing.style import GRAY, TARGET
 from shoal.drawing.words import count, estimate_text, legend_text
-from shoal.metrics.summary import evaluate
 from shoal.record.record import Record
 
 if TYPE_CHECKING:
@@ -78,7 +77,7 @@ def draw_batches(axes: "Axes", record: Record) -> None:
     Batches without a target are shaded.
     """
     edges = np.concatenate([[0.0], np.cumsum(record.tallies[0].steps)])
-    runs = np.array([evaluate("time_on_target", tally, record.facts)[1] for tally in record.tallies])  # (R, B)
+    runs = np.array([record.of_batches("time_on_target", run) for run in range(len(record.tallies))])  # (R, B)
     _label(axes, record)
     axes.set_xlim(0.0, float(edges[-1]))
     if not np.isfinite(runs).any():

@@ -27,11 +27,10 @@ class Halos:
         if _REPULSION not in record.trajectories[run].memory:
             raise RecordError(
                 "halos",
-                f"show a_R, which strategy {record.scenario['strategy']['name']} has none of",
+                f"show a_R, which strategy {record.scenario.strategy.name} has none of",
                 "leave them out, or take a strategy with adaptive repulsion, such as knn-pso",
             )
-        self._fleets = np.repeat(np.arange(len(record.facts.counts)), record.facts.counts)
-        self._colors = np.array([fleet_color(fleet) for fleet in self._fleets.tolist()])
+        self._colors = np.array([fleet_color(fleet) for fleet in record.roster.fleet.tolist()])
         self._discs = _Discs(axes, "halos", alpha=0.09, linewidth=0.5)
         self.artists = [self._discs.collection]
 
@@ -50,14 +49,13 @@ class SensorDiscs:
     """
 
     def __init__(self, axes: "Axes", record: Record, run: int) -> None:
-        radii = [fleet["sensor_radius"] for fleet in record.scenario["fleets"]]
-        if not any(radii):
+        self._radii = record.roster.sensor_radius
+        if not self._radii.any():
             raise RecordError(
                 "sensor discs",
                 "have radius 0 in this scenario: a buoy detects a target when it is inside of the target's disc",
                 "leave them out, or set fleets.NAME.sensor_radius",
             )
-        self._radii = np.repeat(radii, record.facts.counts)
         self._discs = _Discs(axes, "sensors", edgecolor=GRAY, linewidth=0.7, linestyle=(0, (3, 2)), alpha=0.7)
         self._discs.collection.set_facecolor("none")
         self.artists = [self._discs.collection]

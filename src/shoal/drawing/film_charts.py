@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from shoal.drawing.histogram import PHI_EDGES, label_phi
+from shoal.drawing.histogram import label_phi
 from shoal.drawing.stretch import Stretch
 from shoal.drawing.style import GRAY, TARGET, fleet_color
 from shoal.drawing.words import count
-from shoal.metrics.heading_bearing import CENTERS, which_stationary
+from shoal.record.frames import PHI_EDGES, moment_of
 from shoal.record.record import Record
 
 if TYPE_CHECKING:
@@ -39,14 +39,14 @@ class Charts:
 
         self._step = np.asarray(record.trajectories[run].step)[stretch.frames]
         self._engaged = engaged
-        self._histograms = phi_of_frames(record, run, stretch.frames)  # (K, F, 11)
+        self._histograms = _phi_of_frames(record, run, stretch.frames)  # (K, F, 11)
         self._bars = self._draw_phi(axes(_BOTTOM + tall + _BETWEEN))
         self._line, self._dot = self._draw_engaged(axes(_BOTTOM))
         self.artists = [*(bar for bars in self._bars for bar in bars), self._line, self._dot]
 
     def show(self, number: int) -> None:
         """Move to a frame of the stretch."""
-        base = np.zeros(CENTERS.size)
+        base = np.zeros(PHI_EDGES.size - 1)
         for bars, heights in zip(self._bars, self._histograms[number], strict=True):
             for bar, bottom, height in zip(bars, base, heights, strict=True):
                 bar.set_y(bottom)
@@ -62,7 +62,7 @@ class Charts:
         axes.set_ylim(0.0, max(1.0, 1.05 * float(self._histograms.sum(axis=1).max(initial=0.0))))
         return [
             axes.bar(
-                PHI_EDGES[:-1], np.zeros(CENTERS.size), np.diff(PHI_EDGES), align="edge", color=fleet_color(fleet),
+                PHI_EDGES[:-1], 0.0 * PHI_EDGES[1:], np.diff(PHI_EDGES), align="edge", color=fleet_color(fleet),
                 edgecolor="white", linewidth=0.6,
             )
             for fleet in range(self._histograms.shape[1])
@@ -84,27 +84,7 @@ class Charts:
         return line, dot
 
 
-def phi_of_frames(record: Record, run: int, chosen: npt.NDArray[np.intp]) -> npt.NDArray[np.int64]:
-    """Agents of each fleet in each bin of phi at some frames, (K, F, 11); none where no target is there.
-
-    As `metrics.heading_bearing` has it, but of the state at the start of a step: velocities of the step before.
-    """
-    frames, facts = record.trajectories[run], record.facts
-    fleets = np.repeat(np.arange(len(facts.counts)), facts.counts)
-    top = np.repeat(facts.max_speeds, facts.counts)
-    histograms = np.zeros((chosen.size, len(facts.counts), CENTERS.size), np.int64)
-    for row, at in enumerate(chosen.tolist()):
-        there = np.flatnonzero(frames.target_present[at])
-        if not there.size:
-            continue
-        dx = frames.target_x[at][there, None] - frames.x[at]
-        dy = frames.target_y[at][there, None] - frames.y[at]
-        nearest = np.hypot(dx, dy).argmin(axis=0), np.arange(top.size)
-        dx, dy, vx, vy = dx[nearest], dy[nearest], frames.vx[at], frames.vy[at]
-        length = np.hypot(dx, dy) * np.hypot(vx, vy)
-        moves = ~which_stationary(vx, vy, top) & (length > 0)
-        phi = np.divide(dx * vx + dy * vy, length, out=np.zeros(top.size), where=moves)
-        bins = np.clip((phi + 1.0) * 5.0 + 0.5, 0, CENTERS.size - 1).astype(int)
-        alive = np.asarray(frames.alive[at])
-        np.add.at(histograms[row], (fleets[alive], bins[alive]), 1)
-    return histograms
+def _phi_of_frames(record: Record, run: int, chosen: npt.NDArray[np.intp]) -> npt.NDArray[np.float64]:
+    """Agents of each fleet in each bin of phi at some frames, (K, F, 11); none where no target is there."""
+    frames = record.trajectories[run]
+    return np.nan_to_num([moment_of(frames, at, record.facts).phi for at in chosen.tolist()])

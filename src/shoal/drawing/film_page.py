@@ -13,7 +13,7 @@ from shoal.drawing.snapshot import state_text
 from shoal.drawing.stretch import Stretch
 from shoal.drawing.style import GRAY, INK, TARGET, new_figure
 from shoal.drawing.words import count, shorten
-from shoal.record.frames import watching
+from shoal.record.frames import engaged_by_frame, present_by_frame
 from shoal.record.record import Record
 
 if TYPE_CHECKING:
@@ -56,8 +56,8 @@ class FilmPage:
     ) -> None:
         self._record, self._stretch = record, stretch
         self._frames = record.trajectories[run]
-        engaged, present = watching(record, run)
-        engaged, self._present = engaged[stretch.frames], present[stretch.frames]
+        engaged = engaged_by_frame(self._frames)[stretch.frames]
+        self._present = present_by_frame(self._frames)[stretch.frames]
         self._on_target = engaged > 0
         with np.errstate(invalid="ignore"):  # no target yet
             self._share = np.cumsum(self._on_target) / np.cumsum(self._present)
@@ -68,7 +68,7 @@ class FilmPage:
         self._axes = self._arena(width, height, parts, panels)
         self._scene = Scene(self._axes, record, run, parts, stride=stretch.every, pad=_PAD)
         self._bare(parts)
-        self._texts = self._write(width, height, record.scenario["name"])
+        self._texts = self._write(width, height, record.scenario.name)
         self._strip = self._time_strip(width, height)
         self._charts = self._make_charts(record, run, stretch, engaged) if panels else None
         self._background: Any = None
@@ -170,7 +170,7 @@ def _dpi(shorter: int) -> float:
 
 
 def _aspect(record: Record) -> float:
-    return arena_aspect(record.scenario["area"], _PAD)
+    return arena_aspect(record.scenario.area, _PAD)
 
 
 def _inside(width: float, panels: bool) -> float:

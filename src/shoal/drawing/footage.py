@@ -1,7 +1,6 @@
 """Footage: frames of a run made to be looked at, and the present moment of a simulation."""
 
 from collections.abc import Callable
-from typing import Any
 
 from shoal.core.errors import ScenarioError
 from shoal.record.record import Record
@@ -48,5 +47,5 @@ def present(simulation: Simulation) -> Record:
 
 
 def _record(scenario: Scenario, simulation: Simulation, frames: Trajectory) -> Record:
-    content: dict[str, Any] = scenario.model_dump(mode="json")
-    return Record(content, facts_of(scenario), (simulation.tally,), {"seed": scenario.seed}, {simulation.run: frames})
+    facts, about = facts_of(scenario), {"seed": scenario.seed}
+    return Record(scenario, facts, simulation.roster, (simulation.tally,), about, {simulation.run: frames})

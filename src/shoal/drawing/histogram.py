@@ -8,14 +8,11 @@ import numpy.typing as npt
 
 from shoal.drawing.legend import headroom, short_name
 from shoal.drawing.style import GRAY, fleet_color
-from shoal.metrics.heading_bearing import CENTERS
+from shoal.record.frames import PHI_EDGES
 from shoal.record.record import Record
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-
-PHI_EDGES = np.concatenate([[-1.0], (CENTERS[:-1] + CENTERS[1:]) / 2, [1.0]])  # of the 11 bins
 
 
 def draw_phi_histogram(axes: "Axes", record: Record) -> None:
@@ -47,7 +44,7 @@ def draw_phi_bars(
 
     `fleets` are the numbers that give the colors, default 0, 1, ...
     """
-    base: npt.NDArray[np.float64] = np.zeros(CENTERS.size)
+    base: npt.NDArray[np.float64] = np.zeros(PHI_EDGES.size - 1)
     rows = np.atleast_2d(np.asarray(histogram, float))
     for fleet, heights, label in zip(fleets or range(len(rows)), rows, labels, strict=True):
         axes.bar(

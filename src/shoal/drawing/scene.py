@@ -10,9 +10,9 @@ from shoal.drawing.discs import Halos, SensorDiscs
 from shoal.drawing.links import Links
 from shoal.drawing.targets import TargetMarks
 from shoal.drawing.trails import AgentTrails, TargetTrail, draw_whole_path, target_points
-from shoal.metrics.summary import Facts
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
+from shoal.scenario.schema import Scenario
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,7 +24,7 @@ _TRAILED = 1000  # more buoys than this draw no trails
 class Parts(NamedTuple):
     """What a scene shows besides buoys and targets."""
 
-    links: bool = False  # a line to each buoy's k nearest others
+    links: bool = False  # a line to each buoy that is really heard
     trails: bool = True
     halos: bool = False  # discs of radius a_R
     sensors: bool = False  # circles as wide as sensors reach
@@ -59,27 +59,27 @@ class Scene:
         pad: float = PAD,
     ) -> None:  # fmt: skip
         self.frames = record.trajectories[run]
-        targets = record.scenario["targets"]
-        steps = trail_steps(record.facts) if trail is None else trail
-        draw_arena(axes, record.scenario["area"], pad)
+        targets = record.scenario.targets
+        steps = trail_steps(record.scenario) if trail is None else trail
+        draw_arena(axes, record.scenario.area, pad)
         self.actors: list[Actor] = []
         for number, target in enumerate(targets):
-            if target["kind"] == "track":
-                draw_whole_path(axes, self.frames, number, target["radius"])
+            if target.kind == "track":
+                draw_whole_path(axes, self.frames, number, target.radius)
             elif parts.trails:
                 self.actors.append(TargetTrail(axes, record, number, steps, stride))
             self.actors.append(TargetMarks(axes, record, number))
         if parts.trails and steps >= 3 and record.facts.agents <= _TRAILED:
             self.actors.append(AgentTrails(axes, record, steps // 3, stride))
         if parts.links:
-            self.actors.append(Links(axes, record))
+            self.actors.append(Links(axes, self.frames))
         if parts.halos:
             self.actors.append(Halos(axes, record, run))
         if parts.sensors:
             self.actors.append(SensorDiscs(axes, record, run))
         self.actors.append(AgentMarks(axes, record))
-        self._tracks = [number for number, target in enumerate(targets) if target["kind"] == "track"]
-        self._needs_scale = in_kilometers(record.scenario["area"]) or bool(self._tracks)
+        self._tracks = [number for number, target in enumerate(targets) if target.kind == "track"]
+        self._needs_scale = in_kilometers(record.scenario.area) or bool(self._tracks)
         self._axes = axes
 
     def show(self, at: int) -> None:
@@ -99,6 +99,7 @@ class Scene:
         return sorted((each for actor in self.actors for each in actor.artists), key=lambda artist: artist.get_zorder())
 
 
-def trail_steps(facts: Facts) -> int:
+def trail_steps(scenario: Scenario) -> int:
     """Steps of a target's trail if nobody says otherwise."""
-    return round(REACH * facts.unit / (max(facts.max_speeds) * facts.time_step))
+    fastest = max(fleet.max_speed for fleet in scenario.fleets)
+    return round(REACH * scenario.unit / (fastest * scenario.time_step))

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from shoal.core.errors import RecordError
 from shoal.drawing.legend import draw_legend
 from shoal.drawing.scene import Parts, Scene
-from shoal.drawing.words import count, time_text
+from shoal.drawing.words import count, plural, time_text
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 
@@ -31,14 +31,14 @@ def draw_snapshot(
     ----------
     run : number of a run that kept a trajectory
     frame : index into its frames, from the end if negative
-    links : draw a line to the k nearest others of each buoy
+    links : draw a line between buoys of which one heard the other in this step
     trail : steps of the targets' trails (the buoys' are a third of it), 0 for none; as far as consecutive steps were
         kept. Default: what the fastest buoy needs for 8 arena units, each a twentieth of the longer side
     halos, sensors : draw discs of radius a_R, circles as wide as sensors reach
 
     Raises
     ------
-    RecordError : no trajectory of this run, no such frame, or no a_R or sensor to show
+    RecordError : no trajectory of this run, no such frame, or no links, a_R or sensor to show
     """
     frames = frames_of(record, run)
     last = _index(frames, frame)
@@ -78,8 +78,10 @@ def _moment(record: Record, frames: Trajectory, run: int, last: int) -> str:
 
 
 def state_text(frames: Trajectory, at: int) -> str:
-    """Who is there at a frame: 2 on target; or target absent; and how many of the buoys, if not all."""
-    on_target = int(frames.on_target[at].sum())
+    """Who is there at a frame: 2 on target; or target absent; false alarms; how many of the buoys, if not all."""
+    engaged, alarms = int(frames.engaged[at].sum()), int((frames.on_target[at] & ~frames.engaged[at]).sum())
     there, agents = int(frames.alive[at].sum()), frames.alive.shape[1]
-    state = f"{on_target} on target" if frames.target_present[at].any() else "target absent"
+    state = f"{engaged} on target" if frames.target_present[at].any() else "target absent"
+    if alarms:
+        state += f", {plural(alarms, 'false alarm')}"
     return state if there == agents else f"{state}, {there} of {agents} there"

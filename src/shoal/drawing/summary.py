@@ -33,11 +33,11 @@ def summary_figure(record: Record) -> "Figure":
         setup = _wrap(setup_phrases(record))
         footer = _wrap(metric_phrases(record)) + _wrap([interval_text(record), *provenance_phrases(record)])
         run = min(record.trajectories, default=None)
-        aspect = arena_aspect(record.scenario["area"]) if run is not None else None
+        aspect = arena_aspect(record.scenario.area) if run is not None else None
         legend = legend_height(record, snapshot_size(aspect)[0]) if aspect else 0.0
         boxes = lay_out(aspect, 0.55 + _LINE * len(setup), 0.2 + _LINE * len(footer), legend)
         figure = new_figure(boxes.width, boxes.height)
-        _write(figure, boxes, record.scenario["name"], setup, footer)
+        _write(figure, boxes, record.scenario.name, setup, footer)
         if run is not None and boxes.snapshot:
             draw_snapshot(figure.add_axes(boxes.fraction(boxes.snapshot)), record, run)
         draw_phi_histogram(figure.add_axes(boxes.fraction(boxes.histogram)), record)

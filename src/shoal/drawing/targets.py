@@ -17,7 +17,7 @@ class TargetMarks:
         from matplotlib.patches import Circle
 
         self._target = target
-        radius = record.scenario["targets"][target]["radius"]
+        radius = record.scenario.targets[target].radius
         self._disc = Circle(
             (0, 0), radius, facecolor=TARGET, alpha=0.22, edgecolor="none", zorder=2.5, gid="target-disc"
         )

@@ -25,7 +25,7 @@ class TargetTrail:
         from matplotlib.collections import LineCollection
 
         self._target, self._steps, self._stride = target, steps, stride
-        self._side = max(record.scenario["area"]["width"], record.scenario["area"]["height"])
+        self._side = max(record.scenario.area.width, record.scenario.area.height)
         self._lines = LineCollection([], linewidths=1.6, capstyle="butt", zorder=2)
         self._lines.set_gid("target-trail")
         axes.add_collection(self._lines, autolim=False)

@@ -51,8 +51,8 @@ def draw_trajectory_map(
         steps = min(round(ARENA_UNITS * facts.unit / (max(facts.max_speeds) * facts.time_step)), int(kept[-1]) + 1)
     stretch = stretch_of(kept, start, steps, every)
     frames = _part(whole, stretch.frames)
-    area, targets = record.scenario["area"], record.scenario["targets"]
-    side = max(area["width"], area["height"])
+    area, targets = record.scenario.area, record.scenario.targets
+    side = max(area.width, area.height)
     draw_arena(axes, area)
     paths = agent_paths(frames, slice(None))  # (N, K, 2)
     begin = 0
@@ -64,8 +64,8 @@ def draw_trajectory_map(
     for number, target in enumerate(targets):
         path = target_points(frames, slice(None), number)
         there = path[np.isfinite(path).all(axis=1)]
-        if target["kind"] == "track" and there.size:
-            widen(axes, there, target["radius"])
+        if target.kind == "track" and there.size:
+            widen(axes, there, target.radius)
         broken = unwrapped(path, side)
         _draw_paths(axes, broken[None], TARGET, 2.0, f"target-path-{number}", 2)
         _draw_starts(axes, path[None], TARGET, 26.0, f"target-start-{number}")

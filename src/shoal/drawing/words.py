@@ -1,12 +1,13 @@
 """What a figure says in words: counts, estimates, and the lines about a record."""
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 from shoal.core.text import plain
 from shoal.record.record import Record
 from shoal.record.statistics import Estimate
-from shoal.scenario.choices import degree_text, strategy_text
+from shoal.scenario.choices import degree_text, speed_of, strategy_text
 
 _THIN = "\u2009"
 
@@ -75,15 +76,15 @@ def setup_phrases(record: Record) -> list[str]:
     agents = plural(facts.agents, "agent")
     return [
         f"{agents} ({fleets})" if len(facts.counts) > 1 else f"{agents} ({names[0]})",
-        f"k = {degree_text(scenario)}",
+        f"k = {degree_text(scenario, record.roster.by_fleet('neighbors'))}",
         strategy_text(scenario),
-        targets_text(scenario["targets"]),
-        plural(scenario["steps"], "step") + f" of {facts.time_step:g} s",
+        targets_text(scenario.targets),
+        plural(scenario.steps, "step") + f" of {facts.time_step:g} s",
         plural(len(record.tallies), "run"),
     ]
 
 
-def targets_text(targets: list[dict[str, Any]]) -> str:
+def targets_text(targets: Sequence[Any]) -> str:
     """How many targets and how fast: target 3 m/s; 2 targets (still, 3 m/s)."""
     how = [_speed_text(target) for target in targets]
     if len(how) == 1:
@@ -119,14 +120,15 @@ def provenance_phrases(record: Record) -> list[str]:
     ]
 
 
-def _speed_text(target: dict[str, Any]) -> str:
+def _speed_text(target: Any) -> str:
     """How a target moves; the paper's, by waypoints, goes without saying."""
-    if target["kind"] == "track":
-        return f"recorded ({plain(target['id'])})" if target.get("id") else "recorded"
-    if "speed" not in target:
-        return str(target["kind"])
-    kind = "" if target["kind"] == "waypoint" else f"{target['kind']} "
-    return f"{kind}{target['speed']:.3g} m/s"
+    if target.kind == "track":
+        return f"recorded ({plain(target.id)})" if target.id else "recorded"
+    speed = speed_of(target)
+    if speed is None:
+        return str(target.kind)
+    kind = "" if target.kind == "waypoint" else f"{target.kind} "
+    return f"{kind}{speed:.3g} m/s"
 
 
 def _decimals(half: float) -> int:

@@ -8,14 +8,15 @@ from typing import Any
 
 import numpy as np
 
+from shoal.compiler.kernel import kernel
 from shoal.compiler.phase import phase
 from shoal.compiler.placed import part
 from shoal.core.draws import TARGET_STREAM, split
-from shoal.engine.frames import keep_frame
+from shoal.engine.frames import keep_frame, keep_links
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
 from shoal.engine.stage import FRAMES, RADIO, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD, Addresses
 from shoal.world.motion import limit_maneuver, limit_speed, move
-from shoal.world.neighbors import link_nearest, measure_distances, rank_heard, settle_ties
+from shoal.world.neighbors import count_heard, link_nearest, measure_distances, rank_heard, settle_ties
 from shoal.world.presence import update_presence
 from shoal.world.radio import adapt_degree, limit_links, lose_reports, said, send
 from shoal.world.sensing import sense
@@ -53,7 +54,13 @@ def link(stage, number, first, batch, key):
     swarm = part(stage, SWARM)
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
-    links = scratch.links
+    find_links(scratch.links, world, swarm, radio, number, first)
+    return 0
+
+
+@kernel
+def find_links(links, world, swarm, radio, number, first):
+    """Link the agents from `first` on to those whose reports may reach them, ties and losses aside."""
     last = first + links.reach.size
     reports = said(radio, swarm, number)
     measure_distances(links, reports.x, reports.y, swarm.x[first:last], swarm.y[first:last], first, world.agents)
@@ -63,7 +70,6 @@ def link(stage, number, first, batch, key):
     else:
         link_nearest(links, swarm.neighbors[first:last], world.agents)
     rank_heard(links, world.agents)
-    return 0
 
 
 @phase
@@ -73,7 +79,12 @@ def settle(stage, number, first, batch, key):
     swarm = part(stage, SWARM)
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
-    links = scratch.links
+    return 1 if settle_links(scratch.links, world, swarm, radio, first, key) else 0
+
+
+@kernel
+def settle_links(links, world, swarm, radio, first, key):
+    """Settle ties, by how many are heard, and lose reports; return whether links changed."""
     if radio.limited:
         changed = settle_ties(links, links.wanted, world.agents)
     else:
@@ -83,7 +94,16 @@ def settle(stage, number, first, batch, key):
         changed = True
     if changed:
         rank_heard(links, world.agents)
-    return 1 if changed else 0
+    return changed
+
+
+@phase
+def record_links(stage, number, first, frame, key):
+    """Keep whom the agents from `first` on heard in this step."""
+    frames = part(stage, FRAMES)
+    scratch = part(stage, SCRATCH)
+    keep_links(frames, frame, scratch.links, first, part(stage, WORLD).agents)
+    return 0
 
 
 @phase
@@ -148,7 +168,37 @@ def come_to_rest(stage, number, first, batch, key):
     return 0 if finite else 1
 
 
-_IN_ORDER = (sense_all, record_frame, link, settle, move_agents, measure, move_targets, come_to_rest)
+@phase
+def look_at_links(stage, number, first, frame, key):
+    """Keep whom the agents from `first` on will hear in the coming step, which does not begin.
+
+    In the sequential order agents move one after the other: of later ones, whom they would hear if they were first.
+    """
+    frames = part(stage, FRAMES)
+    world = part(stage, WORLD)
+    swarm = part(stage, SWARM)
+    radio = part(stage, RADIO)
+    scratch = part(stage, SCRATCH)
+    links = scratch.links
+    find_links(links, world, swarm, radio, number, first)
+    count_heard(links, world.agents)
+    settle_links(links, world, swarm, radio, first, key)
+    keep_links(frames, frame, links, first, world.agents)
+    return 0
+
+
+_IN_ORDER = (
+    sense_all,
+    record_frame,
+    link,
+    settle,
+    record_links,
+    move_agents,
+    measure,
+    move_targets,
+    come_to_rest,
+    look_at_links,
+)
 
 
 def addresses() -> Addresses:

@@ -85,3 +85,18 @@ def rollout(stage, minds, params, first, last, every, tail):
         step(parts, minds, params, Now(number, batch, split(run_key, number), frame if keeps else -1))
         frame += keeps
     return enter(phases.come_to_rest, stage, last, 0, 0, split(run_key, last))
+
+
+@entry_kernel
+def look(stage, number):
+    """Fill the only frame of a stage with what step `number` will begin with, and whom agents will hear in it."""
+    phases = part(stage, PHASES)
+    run = part(stage, RUN)
+    world = part(stage, WORLD)
+    scratch = part(stage, SCRATCH)
+    together = scratch.leader.size
+    key = split(split(split(run.seed, 0), run.run), number)
+    enter(phases.record_frame, stage, number, 0, 0, key)
+    if part(stage, FRAMES).links.shape[2] > 0:
+        for first in range(0, world.agents, together):
+            enter(phases.look_at_links, stage, number, first, 0, key)

@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from shoal.compiler.placed import all_like
 from shoal.core.agents import Floats, Swarm, aligned_zeros, new_swarm
+from shoal.core.links import link_bytes
 from shoal.metrics.tally import Tally, new_tally
 from shoal.world.arena import World
 from shoal.world.neighbors import Links, new_links
@@ -31,7 +32,8 @@ class Scratch(NamedTuple):
 class Frames(NamedTuple):
     """Room for K frames of a trajectory, each the state at the start of a step. N agents, T targets, M memory fields.
 
-    step : (K,); x, y, vx, vy, on_target, alive : (K, N); memory : (K, N, M)
+    step : (K,); x, y, vx, vy, command_x, command_y, on_target, engaged, alive, neighbors : (K, N); memory : (K, N, M)
+    links : (K, N, W) whom each agent hears in the step, W = link_bytes(N), see core/links.py
     target_x, target_y, target_present : (K, T)
     """
 
@@ -40,8 +42,13 @@ class Frames(NamedTuple):
     y: Floats
     vx: Floats
     vy: Floats
+    command_x: Floats
+    command_y: Floats
     on_target: npt.NDArray[np.bool_]
+    engaged: npt.NDArray[np.bool_]
     alive: npt.NDArray[np.bool_]
+    neighbors: npt.NDArray[np.int64]
+    links: npt.NDArray[np.uint8]
     memory: Floats
     target_x: Floats
     target_y: Floats
@@ -55,10 +62,12 @@ class Addresses(NamedTuple):
     record_frame: Any
     link: Any
     settle_ties: Any
+    record_links: Any
     move: Any
     measure: Any
     move_targets: Any
     come_to_rest: Any
+    look_at_links: Any
 
 
 class Run(NamedTuple):
@@ -111,8 +120,13 @@ def new_frames(count: int, agents: int, targets: int, fields: int) -> Frames:
         y=np.empty((count, agents)),
         vx=np.empty((count, agents)),
         vy=np.empty((count, agents)),
+        command_x=np.empty((count, agents)),
+        command_y=np.empty((count, agents)),
         on_target=np.empty((count, agents), np.bool_),
+        engaged=np.empty((count, agents), np.bool_),
         alive=np.empty((count, agents), np.bool_),
+        neighbors=np.empty((count, agents), np.int64),
+        links=np.empty((count, agents, link_bytes(agents)), np.uint8),
         memory=np.empty((count, agents, fields)),
         target_x=np.empty((count, targets)),
         target_y=np.empty((count, targets)),

@@ -51,6 +51,8 @@ def step(parts, minds, params, now):
     for first in range(0, world.agents, together):
         run(phases.link, parts, now, first)
         listen(parts, arrived, params, now, first)
+        if now.frame >= 0:
+            enter(phases.record_links, parts.stage, now.number, first, now.frame, now.key)
         decide(parts.swarm, parts, arrived, minds, params, now, first)
         run(phases.move, parts, now, first)
     run(phases.measure, parts, now, 0)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from shoal.drawing.histogram import PHI_EDGES, draw_phi_bars, label_phi
+from shoal.drawing.histogram import draw_phi_bars, label_phi
 from shoal.drawing.style import INK, new_figure, style
 from shoal.experiments.replicate import Row
 from shoal.metrics.heading_bearing import CENTERS
@@ -24,6 +24,7 @@ from shoal.paper.figures_series import (
 )
 from shoal.paper.plan import AGENTS, MIXED
 from shoal.paper.results import Figure
+from shoal.record.frames import PHI_EDGES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -12,6 +12,7 @@ from shoal.paper.figures_series import DOUBLE
 from shoal.paper.results import Figure
 from shoal.paper.snapshots import Clustering, Locked, find_clustering, find_locked
 from shoal.record.record import Record
+from shoal.scenario.choices import speed_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -160,6 +161,6 @@ def _swarm(record: Record) -> str:
     facts, scenario = record.facts, record.scenario
     fleets = " and ".join(f"{n} {name}" for n, name in zip(facts.counts, facts.fleets, strict=True))
     return (
-        f"A swarm of {fleets} tracks a target of {scenario['targets'][0]['speed']:g} m/s at "
-        f"k = {scenario['network']['neighbors']} (seed {scenario['seed']})"
+        f"A swarm of {fleets} tracks a target of {speed_of(scenario.targets[0]):g} m/s at "
+        f"k = {scenario.network.neighbors} (seed {scenario.seed})"
     )

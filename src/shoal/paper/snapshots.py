@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from shoal.drawing.footage import footage
 from shoal.metrics.heading_bearing import which_stationary
+from shoal.record.frames import engaged_by_frame
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.scenario.load import load
@@ -55,14 +56,14 @@ def find_locked(record: Record, run: int = 0) -> Locked:
     maximum and is stationary, as in the histogram of phi.
     """
     frames = record.trajectories[run]
-    top = np.repeat(record.facts.max_speeds, record.facts.counts)
-    pushing = np.asarray(frames.memory["repulsion"]) >= record.scenario["strategy"]["repulsion_max"] - _ROUNDING
+    top = record.roster.max_speed
+    pushing = np.asarray(frames.memory["repulsion"]) >= record.scenario.strategy.params["repulsion_max"] - _ROUNDING
     locked = pushing & which_stationary(frames.vx, frames.vy, top)
-    area = record.scenario["area"]
+    area = record.scenario.area
     inside = np.ones(locked.shape, bool)
-    for places, side in ((frames.x, area["width"]), (frames.y, area["height"])):
-        inside &= np.abs(np.asarray(places)) < side / 2 - area["agent_margin"] - _EDGE
-    tracked = np.asarray(frames.on_target).any(axis=1)
+    for places, side in ((frames.x, area.width), (frames.y, area.height)):
+        inside &= np.abs(np.asarray(places)) < side / 2 - area.agent_margin - _EDGE
+    tracked = engaged_by_frame(frames) > 0
     most = (locked & inside).sum(axis=1) * (locked.shape[1] + 1) + locked.sum(axis=1)
     frame = int(np.where(tracked, most, -1).argmax())
     return Locked(frame, locked[frame], inside[frame], pushing[frame])
@@ -76,7 +77,7 @@ def find_clustering(record: Record, run: int = 0) -> Clustering:
     frames = record.trajectories[run]
     distance = mean_distance(frames, fast_agents(record))
     median = float(np.median(distance))
-    tracking = np.asarray(frames.on_target).any(axis=1)
+    tracking = engaged_by_frame(frames) > 0
     together = int(np.where(tracking, distance, np.inf).argmin())
     later = np.flatnonzero(distance[together:] > median)
     return Clustering(together, together + int(later[0]) if later.size else None, distance, median)

@@ -1,6 +1,7 @@
 """The arrays of a record: read only where they are what the record says they are."""
 
 import hashlib
+import math
 import re
 import zipfile
 from collections.abc import Mapping
@@ -12,17 +13,54 @@ import numpy.typing as npt
 
 from shoal.metrics.summary import Facts
 from shoal.metrics.tally import Tally, new_tally
+from shoal.record.roster import Roster
+from shoal.record.trajectory import OF_AGENTS, OF_TARGETS
 
 _MOST_BATCHES = 1000
 _LARGEST = 1e30  # of what a swarm can be, in m, m/s or the units of its memory
 _AT_ONCE = 1_000_000  # values looked at together
-_KINDS = {"step": np.int64, "on_target": np.bool_, "alive": np.bool_, "target_present": np.bool_}  # others: float64
+_KINDS = (  # others are float64
+    dict.fromkeys(("step", "neighbors"), np.int64)
+    | dict.fromkeys(("on_target", "engaged", "alive", "target_present"), np.bool_)
+    | {"links": np.uint8}
+)
+_SINCE_FORMAT_3 = ("command_x", "command_y", "engaged", "neighbors")
+_LONGEST_NAME = 1000  # letters
 
 
 def sum_of_file(file: Path) -> str:
     """SHA-256 of a file."""
     with file.open("rb") as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+# --- roster ---
+
+
+def read_roster(file: Path, agents: int, checksum: str | None) -> Roster:
+    """Return what was chosen of N agents.
+
+    Raises
+    ------
+    ValueError, OSError, BadZipFile and others of zipfile : damaged
+    """
+    if sum_of_file(file) != checksum:
+        raise ValueError("roster.npz is not what was written")
+    with zipfile.ZipFile(file) as archive:
+        parts = {name: _read_chosen(archive, name, agents) for name in Roster._fields}
+    return Roster(**parts)
+
+
+def _read_chosen(archive: zipfile.ZipFile, name: str, agents: int) -> npt.NDArray[Any]:
+    like = {"max_speed": "f8", "sensor_radius": "f8", "strategy": "U"}.get(name, "i8")
+    with archive.open(f"{name}.npy") as stream:
+        shape, kind = _header(stream)
+        if shape != (agents,) or not (kind == like or (like == kind.kind and kind.itemsize <= 4 * _LONGEST_NAME)):
+            raise ValueError(f"roster.npz: {name} is {shape} of {kind}")
+        values = np.frombuffer(stream.read(agents * kind.itemsize), kind).copy()
+    if values.size != agents or (like != "U" and not (np.isfinite(values) & (values >= 0)).all()):
+        raise ValueError(f"roster.npz: {name} is cut short, or holds what no agent has")
+    return values
 
 
 # --- tallies ---
@@ -90,20 +128,24 @@ def _read_like(stream: IO[bytes], like: npt.NDArray[Any], name: str) -> npt.NDAr
 # --- trajectories ---
 
 
-def check_trajectory(files: Mapping[str, Path], *, agents: int, targets: int) -> None:
+def check_trajectory(files: Mapping[str, Path], agents: int, *, targets: int, complete: bool) -> None:
     """Refuse arrays of one run that are not frames of so many agents and targets, by their heads and sizes alone.
+
+    complete : of the format of today, with all arrays
 
     Raises
     ------
     ValueError, OSError, KeyError : damaged
     """
     frames = _frames_of(files["step"])
-    widths = dict.fromkeys(("x", "y", "vx", "vy", "on_target", "alive"), agents)
-    widths |= dict.fromkeys(("target_x", "target_y", "target_present"), targets)
-    widths |= {name: agents for name in files if name.startswith("memory.")}
-    for name in ("step", *widths):
-        kind = np.dtype(_KINDS.get(name, np.float64))
-        _check_file(files[name], (frames,) if name == "step" else (frames, widths[name]), kind)
+    shapes: dict[str, tuple[int, ...]] = {"step": (frames,)}
+    shapes |= {name: (frames, agents) for name in OF_AGENTS if complete or name not in _SINCE_FORMAT_3}
+    shapes |= dict.fromkeys(OF_TARGETS, (frames, targets))
+    shapes |= {name: (frames, agents) for name in files if name.startswith("memory.")}
+    if complete:
+        shapes["links"] = (frames, agents, _link_bytes(files["links"], agents))
+    for name, shape in shapes.items():
+        _check_file(files[name], shape, np.dtype(_KINDS.get(name, np.float64)))
 
 
 def check_frames(arrays: Mapping[str, npt.NDArray[Any]], steps: int) -> None:
@@ -117,7 +159,7 @@ def check_frames(arrays: Mapping[str, npt.NDArray[Any]], steps: int) -> None:
     if step.size and (step[0] < 0 or step[-1] > steps or (np.diff(step) <= 0).any()):
         raise ValueError("steps of the frames are not in order")
     for name, values in arrays.items():
-        rows = max(1, _AT_ONCE // max(1, values.shape[-1]))
+        rows = max(1, _AT_ONCE // max(1, math.prod(values.shape[1:])))
         for start in range(0, len(values), rows):
             part = values[start : start + rows]
             if part.dtype == np.bool_:
@@ -126,6 +168,13 @@ def check_frames(arrays: Mapping[str, npt.NDArray[Any]], steps: int) -> None:
                 fine = (np.abs(part) < _LARGEST).all()  # NaN is not
             if not fine:
                 raise ValueError(f"{name} of the frames holds what is no number")
+
+
+def _link_bytes(file: Path, agents: int) -> int:
+    """Bytes of an agent's links: as many as hold all agents, or none."""
+    with file.open("rb") as stream:
+        shape, _ = _header(stream)
+    return 0 if shape[-1:] == (0,) else -(-agents // 8)
 
 
 def _frames_of(file: Path) -> int:

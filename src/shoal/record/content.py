@@ -1,91 +1,29 @@
-"""record.json: what it says, checked against itself. Nothing that it names is loaded or run."""
+"""record.json: what it says, checked against itself. Nothing that it names is loaded, opened or run."""
 
 import hashlib
 import json
 import math
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from shoal.core.errors import RecordError
 from shoal.core.messages import REPORT_BYTES
 from shoal.core.version import RESULTS_VERSION, VERSION
+from shoal.scenario.recorded import RecordedScenario, recorded_scenario
 
-FORMAT = 2  # 1 had no checksums
+FORMAT = 3  # 1 had no checksums; 2 had neither a roster nor whom agents heard
 
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
 _Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 _Whole = Annotated[int, Field(ge=0, lt=2**64)]
-_Degree = Annotated[int, Field(ge=1, le=2**31)] | Literal["all"]
 
 
 class _Part(BaseModel):
     """Strict in what readers of records rely on, free in all else: scenarios of later versions say more."""
 
     model_config = ConfigDict(strict=True, extra="allow", frozen=True)
-
-
-class _Area(_Part):
-    width: _Positive
-    height: _Positive
-    agent_margin: _Finite
-    origin: list[_Finite] | None = None
-
-
-class _Strategy(_Part):
-    name: str
-
-
-class _Fleet(_Part):
-    name: str
-    count: _Whole
-    max_speed: _Positive
-    sensor_radius: _Finite
-    neighbors: _Degree | None = None
-    strategy: _Strategy | None = None
-
-
-class _Adaptive(_Part):
-    fewest: _Whole
-    most: _Whole
-
-
-class _Network(_Part):
-    neighbors: _Degree
-    range: _Positive | None = None
-    adaptive: _Adaptive | None = None
-
-
-class _Target(_Part):
-    kind: str
-    radius: _Positive
-    speed: _Finite = 0.0
-
-
-class _Loss(_Part):
-    step: _Whole
-    count: _Whole
-    fleet: str | None = None
-
-
-class _Join(_Loss):
-    fleet: str
-
-
-class _Scenario(_Part):
-    name: str
-    description: str
-    time_step: _Positive
-    steps: Annotated[int, Field(ge=1, lt=2**62)]
-    seed: _Whole
-    area: _Area
-    fleets: Annotated[list[_Fleet], Field(min_length=1)]
-    network: _Network
-    strategy: _Strategy
-    targets: Annotated[list[_Target], Field(min_length=1)]
-    losses: list[_Loss]
-    joins: list[_Join]
 
 
 class _Provenance(_Part):
@@ -123,7 +61,7 @@ class RecordContent(_Part):
     summary: _Summary
     provenance: _Provenance
     facts: _Facts
-    scenario: _Scenario
+    scenario: RecordedScenario
     sha256: dict[str, str] | None = None
     raw: dict[str, Any]
 
@@ -134,13 +72,10 @@ class RecordContent(_Part):
     @model_validator(mode="after")
     def _agrees_with_itself(self) -> Self:
         facts, scenario, about = self.facts, self.scenario, self.provenance
-        joins = {fleet.name: 0 for fleet in scenario.fleets}
-        for join in scenario.joins:
-            joins[join.fleet] += join.count
         area = scenario.area
         same = {
             "facts.fleets": (facts.fleets, [fleet.name for fleet in scenario.fleets]),
-            "facts.counts": (facts.counts, [fleet.count + joins[fleet.name] for fleet in scenario.fleets]),
+            "facts.counts": (facts.counts, scenario.counts),
             "facts.max_speeds": (facts.max_speeds, [fleet.max_speed for fleet in scenario.fleets]),
             "facts.unit": (facts.unit, max(area.width, area.height) / 20.0),
             "facts.time_step": (facts.time_step, scenario.time_step),
@@ -169,7 +104,7 @@ def read_content(file: Path) -> RecordContent:
     if raw["format"] >= 2 and raw.get("checksum") != sum_of_content(raw):
         raise ValueError("record.json is not what was written")
     try:
-        content = RecordContent.model_validate({**raw, "raw": raw})
+        content = RecordContent.model_validate({**raw, "scenario": _scenario_of(raw), "raw": raw})
     except ValidationError as errors:
         first = errors.errors()[0]
         place = ".".join(map(str, first["loc"]))
@@ -179,6 +114,22 @@ def read_content(file: Path) -> RecordContent:
     if content.format == 1 and _hash_of(raw["scenario"]) != content.provenance.scenario_hash:
         raise ValueError("record.json: its scenario is not the one that was run")
     return content
+
+
+def _scenario_of(raw: dict[str, Any]) -> RecordedScenario:
+    """The scenario that was run.
+
+    Raises
+    ------
+    ValueError : there is none, or it has not the shape of one
+    """
+    if not isinstance(raw.get("scenario"), dict):
+        raise ValueError("record.json has no scenario")
+    try:
+        return recorded_scenario(raw["scenario"])
+    except ValidationError as errors:
+        first = errors.errors()[0]
+        raise ValueError(f"record.json: scenario.{'.'.join(map(str, first['loc']))}: {first['msg']}") from None
 
 
 def sum_of_content(content: dict[str, Any]) -> str:

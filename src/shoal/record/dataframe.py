@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from shoal.record.record import Record
 
+_SHOWN = ("x", "y", "vx", "vy", "on_target", "engaged", "alive", "neighbors")
 _TARGET_UNITS = {"time_on_target": "1", "first_detection": "s", "losses": "1/h", "reacquisition": "s"}
 
 
@@ -78,7 +79,7 @@ def _frames(record: "Record") -> dict[str, Any]:
         lambda frames: {
             "agent": np.arange(frames.x.shape[1]),
             "fleet": fleets,
-            **{name: getattr(frames, name) for name in ("x", "y", "vx", "vy", "on_target", "alive")},
+            **{name: getattr(frames, name) for name in _SHOWN},
             **{f"memory_{name}": values for name, values in frames.memory.items()},
         },
     )

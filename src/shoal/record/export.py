@@ -20,7 +20,6 @@ from shoal.core.files import AtomicFolder, atomic_file
 from shoal.metrics.heading_bearing import CENTERS
 from shoal.metrics.summary import METRICS, evaluate, fleet_fluctuation, fleet_stationary, phi_histogram
 from shoal.record.trajectory import Trajectory
-from shoal.strategies.plugins import find_strategy
 
 if TYPE_CHECKING:
     import xarray
@@ -158,7 +157,12 @@ def _trajectory_variables(record: "Record") -> dict[str, Variable]:
         "y": (over, stack.floats("y"), on_map | _position("y", "agent") | _axis("y")),
         "vx": (over, stack.floats("vx"), on_map | _says("m/s", "velocity of the agent along x")),
         "vy": (over, stack.floats("vy"), on_map | _says("m/s", "velocity of the agent along y")),
-        "on_target": (over, stack.flags("on_target"), on_map | _flag("off_target on_target", "agent is on a target")),
+        "on_target": (over, stack.flags("on_target"), on_map | _flag("off_target on_target", "agent reports a target")),
+        "is_engaged": (  # engaged is a metric
+            over,
+            stack.flags("engaged"),
+            on_map | _flag("off_target on_target", "agent is on a target"),
+        ),
         "target_x": (targets_over, stack.floats("target_x"), on_map | _position("x", "target")),
         "target_y": (targets_over, stack.floats("target_y"), on_map | _position("y", "target")),
         "target_is_present": (  # target_present is a metric
@@ -264,9 +268,8 @@ def _memory_units(record: "Record") -> dict[str, str]:
     """Unit of each memory field; none are known where a user's strategy has not been loaded in this process."""
     scenario = record.scenario
     units: dict[str, str] = {}
-    for choice in (scenario["strategy"], *(fleet.get("strategy") or {} for fleet in scenario["fleets"])):
-        known = find_strategy(choice["name"], choice.get("source")) if choice else None
-        units |= known.memory if known else {}
+    for choice in (scenario.strategy, *(fleet.strategy for fleet in scenario.fleets)):
+        units |= choice.known.memory if choice and choice.known else {}
     return units
 
 
@@ -275,8 +278,7 @@ def _memory_units(record: "Record") -> dict[str, str]:
 
 def _origin(record: "Record") -> tuple[float, float] | None:
     """(lon, lat) [deg] of (0, 0), if the scenario has one."""
-    origin = record.scenario["area"].get("origin")
-    return (float(origin[0]), float(origin[1])) if origin else None
+    return record.scenario.area.origin
 
 
 def _grid_mapping(lon: float, lat: float) -> Variable:
@@ -325,13 +327,13 @@ def _global_attributes(record: "Record") -> dict[str, Any]:
     return {
         "Conventions": CONVENTIONS,
         **({"featureType": "trajectory"} if record.trajectories else {}),
-        "title": record.scenario["name"],
-        "summary": record.scenario["description"],
+        "title": record.scenario.name,
+        "summary": record.scenario.description,
         "source": f"Shoal {about['versions']['shoal']}, simulation of a swarm",
         "history": f"{about['started']} simulated by Shoal {about['versions']['shoal']}",
         "scenario_hash": about["scenario_hash"],
         "provenance": json.dumps(about),
-        "scenario": json.dumps(record.scenario),
+        "scenario": json.dumps(record.scenario.model_dump(mode="json")),
     }
 
 

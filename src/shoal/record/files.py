@@ -1,4 +1,4 @@
-"""A record on disk: a folder with record.json, tallies.npz and one folder of .npy files per recorded run.
+"""A record on disk: a folder with record.json, roster.npz, tallies.npz and one folder of .npy files per recorded run.
 
 It is complete or not there (core/files.py), and says its own checksums: what was damaged later is refused.
 """
@@ -17,9 +17,11 @@ from shoal.core.files import AtomicFolder
 from shoal.core.version import RESULTS_VERSION
 from shoal.metrics.summary import Facts
 from shoal.metrics.tally import Tally
-from shoal.record.arrays import check_frames, check_trajectory, read_tallies, sum_of_file
+from shoal.record.arrays import check_frames, check_trajectory, read_roster, read_tallies, sum_of_file
 from shoal.record.content import FORMAT, RecordContent, read_content, sum_of_content
+from shoal.record.older import completed, roster_from
 from shoal.record.record import Record
+from shoal.record.roster import Roster
 from shoal.record.trajectory import Trajectory, TrajectoryWriter
 
 
@@ -63,14 +65,15 @@ class RecordFolder:
             for name, part in zip(Tally._fields, tally, strict=True)
         }
         np.savez(self._whole.partial / "tallies.npz", **tallies)  # type: ignore[arg-type]
+        np.savez(self._whole.partial / "roster.npz", **record.roster._asdict())
         content: dict[str, Any] = {
             "format": FORMAT,
             "summary": record.summary(),
             "provenance": record.provenance,
             "facts": record.facts._asdict(),
-            "scenario": record.scenario,
+            "scenario": record.scenario.model_dump(mode="json"),
             "sha256": {
-                "tallies.npz": sum_of_file(self._whole.partial / "tallies.npz"),
+                **{name: sum_of_file(self._whole.partial / name) for name in ("roster.npz", "tallies.npz")},
                 **{
                     f"{folder}/{name}.npy": each
                     for folder, writer in sorted(self._writers.items())
@@ -111,6 +114,10 @@ def open_record(folder: str | Path) -> Record:
             raise RecordError(str(folder), "is not a record (it has no record.json)", "name a folder made by --out")
         content = read_content(folder / "record.json")
         facts = Facts(**{name: _plain(part) for name, part in content.facts})
+        if content.format < 3:
+            roster = roster_from(content.scenario)
+        else:
+            roster = read_roster(folder / "roster.npz", facts.agents, content.checksum_of("roster.npz"))
         tallies = read_tallies(
             folder / "tallies.npz",
             facts,
@@ -120,8 +127,8 @@ def open_record(folder: str | Path) -> Record:
             complete=content.provenance.results_version == RESULTS_VERSION,
             checksum=content.checksum_of("tallies.npz"),
         )
-        trajectories = KeptTrajectories(folder, content, facts)
-        return Record(content.raw["scenario"], facts, tallies, content.raw["provenance"], trajectories)
+        trajectories = KeptTrajectories(folder, content, roster)
+        return Record(content.scenario, facts, roster, tallies, content.raw["provenance"], trajectories)
     except RecordError:
         raise
     except Exception as error:  # whatever a damaged file does to those who read it
@@ -131,13 +138,16 @@ def open_record(folder: str | Path) -> Record:
 class KeptTrajectories(Mapping[int, Trajectory]):
     """The trajectories of a record on disk: their shapes are checked here, each one's numbers when it is first used."""
 
-    def __init__(self, folder: Path, content: RecordContent, facts: Facts) -> None:
+    def __init__(self, folder: Path, content: RecordContent, roster: Roster) -> None:
         self._folder = folder
         self._content = content
+        self._roster = roster
         self._opened: dict[int, Trajectory] = {}
         self._files = {run: self._files_of(run) for run in _runs_in(folder, content)}
         for files in self._files.values():
-            check_trajectory(files, agents=facts.agents, targets=len(content.scenario.targets))
+            check_trajectory(
+                files, roster.fleet.size, targets=len(content.scenario.targets), complete=content.format >= 3
+            )
 
     def __getitem__(self, run: int) -> Trajectory:
         if run not in self._opened:
@@ -170,6 +180,8 @@ class KeptTrajectories(Mapping[int, Trajectory]):
                     raise ValueError(f"{_name_of(run)}/{file.name} is not what was written")
             arrays = {name: np.load(file, mmap_mode="r") for name, file in self._files[run].items()}
             check_frames(arrays, self._content.scenario.steps)
+            if self._content.format < 3:
+                arrays = completed(arrays, self._content.scenario, self._roster)
             return Trajectory.from_arrays(arrays)
         except Exception as error:  # as in open_record
             raise _damaged(self._folder, error) from error

@@ -1,32 +1,101 @@
-"""What the frames of a record show, beyond what they hold: who is on a target, and whom each agent hears."""
+"""What frames show, measured: how many are on a target, Xi, phi, and whom agents hear. Nothing else measures frames."""
+
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from shoal.record.record import Record
-from shoal.scenario.choices import degree_of_fleet
+from shoal.core.errors import RecordError
+from shoal.core.links import MOST_LINKED, unpacked
+from shoal.metrics.heading_bearing import CENTERS
+from shoal.metrics.moment import tally_moment
+from shoal.metrics.summary import METRICS, Facts, phi_histogram
+from shoal.metrics.tally import new_tally
+from shoal.record.trajectory import Trajectory
+
+PHI_EDGES = np.concatenate([[-1.0], (CENTERS[:-1] + CENTERS[1:]) / 2, [1.0]])  # of the 11 bins of phi
+
+_tally_moment: Any = tally_moment  # kernels have no types that mypy sees
+_TARGET = np.dtype([("x", np.float64), ("y", np.float64), ("present", np.int64)])
 
 
-def watching(record: Record, run: int) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.bool_]]:
-    """How many agents are on a target that is there, and whether one is, at every frame: (K,), (K,).
+def engaged_by_frame(frames: Trajectory) -> npt.NDArray[np.int64]:
+    """How many agents are on a target that is there, (K,). False alarms do not count."""
+    engaged: npt.NDArray[np.int64] = np.asarray(frames.engaged).sum(axis=1)
+    return engaged
 
-    An agent that reports a target out of its sensor's reach, a false alarm, is not on target.
-    """
-    frames, scenario = record.trajectories[run], record.scenario
-    sensors = np.repeat([fleet["sensor_radius"] for fleet in scenario["fleets"]], record.facts.counts)
-    near = np.zeros(frames.on_target.shape, bool)
-    for number, target in enumerate(scenario["targets"]):
-        dx = frames.x - frames.target_x[:, number, None]
-        dy = frames.y - frames.target_y[:, number, None]
-        there = np.asarray(frames.target_present[:, number])
-        near |= (dx * dx + dy * dy <= (sensors + target["radius"]) ** 2) & there[:, None]
-    engaged: npt.NDArray[np.int64] = (near & frames.on_target & frames.alive).sum(axis=1)
+
+def present_by_frame(frames: Trajectory) -> npt.NDArray[np.bool_]:
+    """Whether a target is there, (K,)."""
     present: npt.NDArray[np.bool_] = np.any(frames.target_present, axis=1)
-    return engaged, present
+    return present
 
 
-def degrees_of(record: Record) -> npt.NDArray[np.int64]:
-    """K of each agent before it adapts, (N,)."""
-    everybody = record.facts.agents - 1
-    degrees = [degree_of_fleet(record.scenario, fleet) for fleet in record.scenario["fleets"]]
-    return np.repeat([everybody if each == "all" else int(each) for each in degrees], record.facts.counts)
+class Moment(NamedTuple):
+    """What the metrics say of one frame.
+
+    xi : velocity fluctuation over the mean top speed
+    phi : (F, 11) agents of each fleet per bin of phi; NaN where no target is there. The heading is that of the velocity
+        which an agent last wanted, within its limits, the bearing that to the nearest target as the frame shows it
+    """
+
+    xi: float
+    phi: npt.NDArray[np.float64]
+
+
+class _Swarm(NamedTuple):
+    """The fields of a swarm that `tally_moment` reads."""
+
+    x: Any
+    y: Any
+    vx: Any
+    vy: Any
+    command_x: Any
+    command_y: Any
+    alive: Any
+    max_speed: Any
+    fleet_end: Any
+
+
+def moment_of(frames: Trajectory, at: int, facts: Facts) -> Moment:
+    """Xi and phi of a frame, by the metrics' own sums over it alone."""
+    swarm = _Swarm(
+        **{name: np.array(getattr(frames, name)[at], np.float64) for name in _Swarm._fields[:7]},
+        max_speed=np.repeat(facts.max_speeds, facts.counts),
+        fleet_end=np.cumsum(facts.counts),
+    )
+    targets = np.zeros(frames.target_x.shape[1], _TARGET).view(np.recarray)
+    targets["x"], targets["y"] = frames.target_x[at], frames.target_y[at]
+    targets["present"] = frames.target_present[at]
+    tally = new_tally(1, 1, len(facts.fleets), facts.agents, targets.size)
+    scratch = (np.empty(facts.agents) for _ in range(3))
+    _tally_moment(tally, swarm, targets, int(swarm.alive.sum()), *scratch)
+    return Moment(METRICS["xi"].formula(tally, facts), phi_histogram(tally))
+
+
+def who_hears_whom(frames: Trajectory, at: int) -> npt.NDArray[np.bool_]:
+    """Whom each agent really heard in the step that a frame begins, (N, N): row i is true where i heard j.
+
+    Raises
+    ------
+    RecordError : links were not kept
+    """
+    if not frames.links.shape[2]:
+        agents = frames.x.shape[1]
+        problem, fix = f"keep no links: there are more than {MOST_LINKED} agents", "draw them without links"
+        if agents <= MOST_LINKED:
+            problem, fix = "keep no links: an older Shoal wrote them", "run the scenario again, or draw without links"
+        raise RecordError(f"the frames of {agents} agents", problem, fix)
+    return unpacked(frames.links[at])
+
+
+def linked_pairs(frames: Trajectory, at: int) -> npt.NDArray[np.int64]:
+    """Pairs (P, 2), i < j, each once, of which at least one heard the other in the step that a frame begins.
+
+    Raises
+    ------
+    RecordError : links were not kept
+    """
+    heard = who_hears_whom(frames, at)
+    pairs: npt.NDArray[np.int64] = np.argwhere(np.triu(heard | heard.T, 1))
+    return pairs

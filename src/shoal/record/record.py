@@ -18,8 +18,10 @@ from shoal.metrics.summary import (
     METRICS,
     Bounds,
     Facts,
+    Metric,
     batch_values,
     bounds_of,
+    evaluate,
     fleet_fluctuation,
     fleet_power,
     fleet_stationary,
@@ -27,10 +29,12 @@ from shoal.metrics.summary import (
     phi_histogram,
 )
 from shoal.metrics.tally import Tally
+from shoal.record.roster import Roster
 from shoal.record.statistics import FEWEST, Estimate, all_alike, estimate
 from shoal.record.trajectory import Trajectory
 from shoal.record.words import interval_text, mean_text
 from shoal.scenario.choices import headline
+from shoal.scenario.schema import Scenario
 
 if TYPE_CHECKING:
     import pandas
@@ -46,15 +50,17 @@ class Record:
 
     Attributes
     ----------
-    scenario : the scenario in full, as its file would say it
+    scenario : what was run; of a record that was opened a RecordedScenario, which loaded nothing that it names
     facts : fleets and scales that metrics need
+    roster : what the engine was given of each agent: fleet, top speed, sensor, k, strategy, when it joins
     tallies : the sums of each run
     provenance : seed, steps, scenario_hash, versions, platform, time, notes
     trajectories : {run: frames}, for the runs that kept any
     """
 
-    scenario: dict[str, Any]
+    scenario: Scenario
     facts: Facts
+    roster: Roster
     tallies: tuple[Tally, ...]
     provenance: dict[str, Any]
     trajectories: Mapping[int, Trajectory] = field(default_factory=dict)
@@ -78,14 +84,23 @@ class Record:
         ------
         KeyError : no metric of this name
         """
-        area, step = self.scenario["area"], self.facts.time_step
+        area, step = self.scenario.area, self.facts.time_step
         return bounds_of(
             metric,
             agents=self.facts.agents,
-            reach=reachable(area["width"], area["height"], area["agent_margin"]),
-            duration=self.scenario["steps"] * step,
+            reach=reachable(area.width, area.height, area.agent_margin),
+            duration=self.scenario.steps * step,
             flicker=1800.0 / step,
         )
+
+    def of_batches(self, metric: str, run: int) -> npt.NDArray[np.float64]:
+        """A metric over each batch of consecutive steps of a run, (B,); none of a metric that happens once."""
+        return evaluate(metric, self.tallies[run], self.facts)[1]
+
+    @property
+    def metrics(self) -> Mapping[str, Metric]:
+        """What can be estimated, by name: its unit and what it means."""
+        return METRICS
 
     def too_short(self) -> list[str]:
         """Metrics that vary within a single run, which is too short to tell how much: they have no interval."""
@@ -149,8 +164,8 @@ class Record:
 
     def changes(self) -> list[int]:
         """The steps within the run at which agents are lost or join."""
-        steps = {each["step"] for kind in ("losses", "joins") for each in self.scenario[kind]}
-        return sorted(step for step in steps if step < self.scenario["steps"])
+        steps = {loss.step for loss in self.scenario.losses} | {join.step for join in self.scenario.joins}
+        return sorted(step for step in steps if step < self.scenario.steps)
 
     def robustness(self) -> list[dict[str, Estimate]]:
         """Time on target `before`, `during` and `after` each of `changes`, and the `recovery` time [s], over runs.
@@ -202,7 +217,8 @@ class Record:
         what : metrics - a row per run and metric: run, metric, value, unit
             fleets, targets - the same of each fleet, of each target (numbered from 0)
             frames - a row per run, kept step and agent: run, step, time [s], agent, fleet, x, y [m], vx, vy [m/s],
-            on_target, alive, memory_NAME; target_frames - the same of targets: target, x, y [m], present
+            on_target (what it reports), engaged (what is so), alive, neighbors (k), memory_NAME
+            target_frames - the same of targets: target, x, y [m], present
 
         Raises
         ------
@@ -232,7 +248,7 @@ class Record:
 
     def _repr_html_(self) -> str:
         """The table of the run for a notebook: every metric with its interval."""
-        several = len(self.scenario["targets"]) > 1
+        several = len(self.scenario.targets) > 1
         known = {name: self.estimate(name) for name in METRICS if several or name not in _OF_SEVERAL_TARGETS}
         return Sheet(
             head=self._head(),
@@ -241,14 +257,15 @@ class Record:
                 (name, mean_text(value), interval_text(value), METRICS[name].unit, METRICS[name].sentence)
                 for name, value in known.items()
             ],
-            note=f"{headline(self.scenario)}; intervals {'over runs' if len(self.tallies) > 1 else 'by batch means'}",
+            note=f"{headline(self.scenario, self.roster.by_fleet('neighbors'))}; "
+            f"intervals {'over runs' if len(self.tallies) > 1 else 'by batch means'}",
             words=("metric", "unit", ""),
         ).html()
 
     def _head(self) -> str:
         runs, about = len(self.tallies), self.provenance
         return (
-            f"{plain(self.scenario['name'])}: {runs} run{'s' * (runs != 1)} of {self.scenario['steps']:,} steps, "
+            f"{plain(self.scenario.name)}: {runs} run{'s' * (runs != 1)} of {self.scenario.steps:,} steps, "
             f"seed {about['seed']}, scenario {about['scenario_hash']}"
         )
 

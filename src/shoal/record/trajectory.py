@@ -13,19 +13,24 @@ import numpy.typing as npt
 from shoal.core.errors import UnknownNameError, no_attribute
 from shoal.core.sheet import Sheet
 from shoal.core.text import plain
-from shoal.engine.stage import Frames
 
-_PLAIN = ("step", "x", "y", "vx", "vy", "on_target", "alive", "target_x", "target_y", "target_present")
+OF_AGENTS = ("x", "y", "vx", "vy", "command_x", "command_y", "on_target", "engaged", "alive", "neighbors")
+OF_TARGETS = ("target_x", "target_y", "target_present")
+_PLAIN = ("step", *OF_AGENTS, "links", *OF_TARGETS)
 
 
 @dataclass(frozen=True, repr=False)
 class Trajectory:
-    """K frames of one run, each the state at the start of a step.
+    """K frames of one run, each what the engine knew at the start of a step. N agents, T targets.
 
     Attributes
     ----------
     step : (K,) number of the step
-    x, y : (K, N) [m]; vx, vy : (K, N) [m/s]; on_target, alive : (K, N)
+    x, y : (K, N) [m]; vx, vy : (K, N) [m/s] really made in the step before
+    command_x, command_y : (K, N) [m/s] wanted in the step before, within the agent's limits, before the wall
+    on_target : (K, N) what an agent believes and reports; engaged : (K, N) it is on a target that is there
+    alive : (K, N) it is there; neighbors : (K, N) the k in force
+    links : (K, N, W) whom agents really hear in the step, as bits: see `shoal.record.frames.who_hears_whom`
     target_x, target_y : (K, T) [m]; target_present : (K, T)
     memory : {field: (K, N)} what agents remembered, in the units of the strategy's memory
     """
@@ -35,8 +40,13 @@ class Trajectory:
     y: npt.NDArray[np.float64]
     vx: npt.NDArray[np.float64]
     vy: npt.NDArray[np.float64]
+    command_x: npt.NDArray[np.float64]
+    command_y: npt.NDArray[np.float64]
     on_target: npt.NDArray[np.bool_]
+    engaged: npt.NDArray[np.bool_]
     alive: npt.NDArray[np.bool_]
+    neighbors: npt.NDArray[np.int64]
+    links: npt.NDArray[np.uint8]
     target_x: npt.NDArray[np.float64]
     target_y: npt.NDArray[np.float64]
     target_present: npt.NDArray[np.bool_]
@@ -77,8 +87,8 @@ class Trajectory:
         return cls(**{name: arrays[name] for name in _PLAIN}, memory=memory)
 
     @classmethod
-    def from_frames(cls, frames: Frames, fields: Iterable[str]) -> "Trajectory":
-        """The frames that the engine filled; `fields` are the strategy's memory."""
+    def from_frames(cls, frames: Any, fields: Iterable[str]) -> "Trajectory":
+        """The frames that the engine filled (engine/stage.py); `fields` are the strategy's memory."""
         plain = {name: getattr(frames, name) for name in _PLAIN}
         return cls(**plain, memory={name: np.ascontiguousarray(frames.memory[..., m]) for m, name in enumerate(fields)})
 

@@ -75,8 +75,9 @@ def simulate(
         mark_compiled(scenario)
         results = _run_all(scenario, first, runs, jobs or os.cpu_count() or 1, keep, progress or _silent)
         record = Record(
-            scenario=scenario.model_dump(mode="json"),
+            scenario=scenario,
             facts=facts_of(scenario),
+            roster=first.roster,
             tallies=tuple(tally for tally, _ in results),
             provenance=provenance(scenario, started, time.perf_counter() - begun, first.notes),
             trajectories={run: frames for run, (_, frames) in enumerate(results) if frames is not None},

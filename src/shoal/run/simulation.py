@@ -14,19 +14,21 @@ from shoal.core.errors import ScenarioError, StrategyError
 from shoal.core.text import plain
 from shoal.core.version import RESULTS_VERSION
 from shoal.engine.phases import addresses
-from shoal.engine.rollout import set_out
+from shoal.engine.rollout import look, set_out
 from shoal.engine.stage import Frames, Run, Stage, new_frames, new_scratch
 from shoal.metrics.tally import new_tally
 from shoal.record.saved_state import read_state, write_state
 from shoal.record.trajectory import Trajectory
 from shoal.run.build import build_radio, build_swarm, build_targets, build_world, losses_of, open_tracks
 from shoal.run.compiling import entry_points
+from shoal.run.facts import roster_of
 from shoal.run.state import State, arrays_of, read_only, state_of
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
 from shoal.world.placement import PLACES
 
 _set_out: Any = set_out  # kernels have no types that mypy sees
+_look: Any = look
 BATCHES = 20  # of one run, for batch means
 
 
@@ -44,6 +46,7 @@ class Simulation:
     swarm : read-only arrays of the agents' state and make (padded: the first `scenario.agents` lanes count)
     targets : read-only array of target records, (T,)
     tally : read-only sums so far
+    roster : what each agent was given: fleet, top speed, sensor, k, strategy, when it joins
     minds : read-only records of what agents remember, in the words of their strategy
     moment : all of the state, read-only; `edit` opens it for changes
     notes : what was assumed or dropped in reading recorded tracks
@@ -89,6 +92,7 @@ class Simulation:
         places = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
         lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
         _set_out(self._placed.address, places, lifetimes, losses_of(scenario))
+        self.roster = roster_of(self._swarm, scenario.agents, self.crew)
         self.begin()
         self._settle()
 
@@ -125,21 +129,15 @@ class Simulation:
         return Trajectory.from_frames(frames, self.memory_fields) if frames.step.size else None
 
     def look(self) -> Trajectory:
-        """Return the current frame (K = 1), as the coming step would keep it. Nothing is changed."""
-        n, swarm, targets = self.scenario.agents, self.swarm, self.targets
-        return Trajectory(
-            step=np.array([self.number]),
-            x=swarm.x[None, :n].copy(),
-            y=swarm.y[None, :n].copy(),
-            vx=swarm.vx[None, :n].copy(),
-            vy=swarm.vy[None, :n].copy(),
-            on_target=swarm.on_target[None, :n].copy(),
-            alive=swarm.alive[None, :n] > 0.0,
-            target_x=targets["x"][None].copy(),
-            target_y=targets["y"][None].copy(),
-            target_present=targets["present"][None] != 0,
-            memory={name: swarm.memory[None, :n, m].copy() for m, name in enumerate(self.memory_fields)},
-        )
+        """Return the current frame (K = 1), as the coming step would keep it. Nothing is changed.
+
+        Its links are those of the coming step. In the sequential order, in which agents hear what others have just
+        done, they are those of agents that all decide first.
+        """
+        frames = self._new_frames(1)
+        placed = Placed(self._stage(frames))
+        _look(placed.address, self.number)
+        return Trajectory.from_frames(frames, self.memory_fields)
 
     @contextmanager
     def edit(self) -> Iterator[State]:

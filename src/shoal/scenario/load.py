@@ -15,6 +15,7 @@ from pydantic import ValidationError
 from shoal.core.errors import ScenarioError, StrategyError, did_you_mean
 from shoal.core.text import cut, quoted
 from shoal.scenario.frozen import MOST_ENTRIES, plain
+from shoal.scenario.recorded import RecordedScenario, RecordedStrategy
 from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Join, Loss, Motion, Network, Scenario
 from shoal.scenario.strategy_choice import StrategyParamsError, params_model
 from shoal.scenario.targets import TARGETS
@@ -75,7 +76,7 @@ def table_of(source: Source) -> dict[str, Any]:
         raise ScenarioError(
             "scenario", f"is {quoted(source)}", f"give a preset's name ({names}), a file, or a Scenario"
         )
-    table: dict[str, Any] = plain(source)
+    table: dict[str, Any] = source.model_dump() if isinstance(source, RecordedScenario) else plain(source)
     return table
 
 
@@ -138,7 +139,7 @@ def scenario_from(table: Mapping[str, Any], *, where: str = "scenario", text: st
     except RecursionError:
         raise ScenarioError(where, "is nested too deeply", _DEPTH) from None
     if "strategy" in written:
-        written["strategy"] = load_strategies(written["strategy"])
+        written["strategy"] = _loaded(written["strategy"])
     if isinstance(written.get("fleets"), list):
         written["fleets"] = [_with_own_strategy(fleet) for fleet in written["fleets"]]
     try:
@@ -165,8 +166,13 @@ def _refuse_crowds(part: Any, where: str, path: tuple[Any, ...] = ()) -> None:
 def _with_own_strategy(fleet: Any) -> Any:
     """A fleet's table, its strategy's file or package loaded."""
     if isinstance(fleet, Mapping) and fleet.get("strategy") is not None:
-        return {**fleet, "strategy": load_strategies(fleet["strategy"])}
+        return {**fleet, "strategy": _loaded(fleet["strategy"])}
     return fleet
+
+
+def _loaded(choice: Any) -> Any:
+    """A strategy's table, name or choice, its file or package loaded; one of a record loaded nothing yet."""
+    return load_strategies(choice.flat() if isinstance(choice, RecordedStrategy) else choice)
 
 
 def _strategy_path(wrong: Any, table: Mapping[str, Any]) -> tuple[Any, ...]:

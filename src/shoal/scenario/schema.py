@@ -210,12 +210,18 @@ class Scenario(Frozen):
 
         return cast(Self, scenario_from({**vars(self), **update}))
 
+    def __eq__(self, other: object) -> bool:
+        """Whether both say the same, a record's too."""
+        return isinstance(other, Scenario) and self.model_dump(mode="json") == other.model_dump(mode="json")
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.steps, self.seed))
+
     def __repr__(self) -> str:
         """One line: who looks for what, for how long."""
         try:
-            table = self.model_dump(mode="json")
             return (
-                f"<Scenario {plain(self.name)}: {plain(headline(table))}; "
+                f"<Scenario {plain(self.name)}: {plain(headline(self))}; "
                 f"{self.steps:,} steps of {self.time_step:g} s, seed {self.seed}, {self.hash}>"
             )
         except Exception:  # one made by force must be shown, too

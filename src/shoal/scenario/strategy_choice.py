@@ -19,17 +19,22 @@ class StrategyChoice:
 
     Attributes
     ----------
-    owner : the strategy itself; name : what it is called
+    known : the strategy itself; name : what it is called
     file : the user's Python file that defines it, or None; source : hash of its text, or of an installed package's file
     params : {parameter: value}, words for choices
     """
 
     def __init__(self, owner: Strategy, file: str | None, source: str | None, params: dict[str, Any]) -> None:
-        self.owner = owner
+        self.known: Strategy | None = owner
         self.name = owner.name
         self.file = file
         self.source = source
         self.params = params
+
+    @property
+    def owner(self) -> Strategy:
+        """The strategy itself."""
+        return cast(Strategy, self.known)
 
     def flat(self) -> dict[str, Any]:
         """The table as a scenario file spells it."""
@@ -38,8 +43,9 @@ class StrategyChoice:
 
     def choices(self) -> dict[str, Any]:
         """The table without the parameters that are left at their defaults."""
-        model = params_model(self.owner).model_fields
-        return {key: each for key, each in self.flat().items() if key not in self.params or each != model[key].default}
+        model = params_model(self.known).model_fields if self.known else {}
+        left = {key for key, each in self.params.items() if key in model and each == model[key].default}
+        return {key: each for key, each in self.flat().items() if key not in left}
 
     def kernel_params(self) -> Any:
         """The strategy's NamedTuple of parameters: words become their index, numbers the type of the default."""
@@ -66,7 +72,9 @@ class StrategyChoice:
         return f"StrategyChoice({self.flat()})"
 
     def __deepcopy__(self, memo: dict[int, Any]) -> "StrategyChoice":
-        return StrategyChoice(self.owner, self.file, self.source, dict(self.params))
+        twin = object.__new__(type(self))
+        vars(twin).update(vars(self), params=dict(self.params))
+        return twin
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _revived, (self.flat(),)  # as a file would say it: compiled functions cannot travel
@@ -74,8 +82,8 @@ class StrategyChoice:
     @classmethod
     def validate(cls, value: Any) -> "StrategyChoice":
         """Return the choice that a table describes; see `load_strategies` for files and packages."""
-        if isinstance(value, cls):  # one that somebody may have changed since
-            return cls(value.owner, value.file, value.source, _filled(value.owner, value.params))
+        if isinstance(value, StrategyChoice):  # one that somebody may have changed since
+            return StrategyChoice(value.owner, value.file, value.source, _filled(value.owner, value.params))
         if isinstance(value, str):
             value = {"name": value}
         if not isinstance(value, dict) or "name" not in value:

@@ -46,6 +46,14 @@ def find_strategy(name: str, source: object = None) -> Strategy | None:
     return loaded.get(name) or CATALOGUE.get(name) or load_installed(name)
 
 
+def known_strategy(name: str, source: object = None) -> Strategy | None:
+    """The strategy of a name and source if this process has that very one already; nothing is loaded."""
+    if isinstance(source, str) and name in _LOADED.get(source, {}):
+        return _LOADED[source][name]
+    known = CATALOGUE.get(name)
+    return known if known and source_of(known) == source else None
+
+
 def name_of(choice: Any) -> Any:
     """The name of a strategy given as the function that @shoal.strategy decorates; anything else unchanged."""
     return next((known.name for known in CATALOGUE.values() if known.decide is choice), choice)

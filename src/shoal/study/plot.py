@@ -163,7 +163,7 @@ def phi_histogram(
             at = number * (left + width) + left
             panel = figure.add_axes((at / across, bottom / tall, width / across, height / tall))
             draw_phi_histogram(panel, record)
-            panel.set_title(short_name(name or record.scenario["name"]))
+            panel.set_title(short_name(name or record.scenario.name))
         scaled = [panel for panel in figure.axes if len(panel.get_yticks())]  # the others had no target
         tallest = max(scaled or figure.axes, key=lambda panel: panel.get_ylim()[1])
         for panel in scaled:
@@ -271,7 +271,7 @@ def _run(record: Record, run: int | None) -> int:
 
 def _arena_page(record: Record, legend: Callable[[float], float]) -> Page:
     """Where the arena is on a page of its own [inch], and the room right of and above it."""
-    width, height = snapshot_size(arena_aspect(record.scenario["area"]))
+    width, height = snapshot_size(arena_aspect(record.scenario.area))
     return (0.62, 0.55, width, height), 0.15, 0.3 + legend(width)
 
 

@@ -1,14 +1,16 @@
 """A frame as bytes: docs/reference/view-protocol.md, in the words of numpy."""
 
 from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from shoal.metrics.tally import BINS
+from shoal.record.trajectory import Trajectory
 
-FORMAT = 1
+FORMAT = 2  # 1 had no links
+REPULSION = "repulsion"  # the memory field that the page shows as a_R
+BINS = 11  # of phi
 RECENT = 1000  # steps of the shorter mean
 ON_TARGET, ALIVE = 1, 2  # bits of an agent
 PRESENT = 1  # bit of a target
@@ -32,43 +34,31 @@ class Gauges(NamedTuple):
     phi: npt.ArrayLike
 
 
-def pack(
-    *,
-    run: int,
-    epoch: int,
-    step: int,
-    gauges: Gauges,
-    agents: dict[str, npt.NDArray[Any]],
-    targets: dict[str, npt.NDArray[Any]],
-) -> bytes:
-    """Return the bytes of a frame.
-
-    Parameters
-    ----------
-    agents : x, y [m], vx, vy [m/s], repulsion [m], degree, on_target, alive; (N,) each
-    targets : x, y [m], present; (T,) each
-    """
-    size = agents["x"].size, targets["x"].size
+def pack(frames: Trajectory, at: int, *, run: int, epoch: int, gauges: Gauges) -> bytes:
+    """Return the bytes of one frame of a trajectory."""
+    size = frames.x.shape[1], frames.target_x.shape[1], frames.links.shape[2]
     frame = np.zeros((), _layout(*size))
     frame["format"], frame["run"], frame["epoch"] = FORMAT, run, epoch % 65536
-    frame["step"], frame["agents"], frame["targets"] = step, *size
+    frame["step"] = frames.step[at]
+    frame["agents"], frame["targets"], frame["link_bytes"] = size
     frame["gauges"] = [*gauges[:-1], *np.asarray(gauges.phi, float)]
-    for name in ("x", "y", "vx", "vy", "repulsion", "degree"):
-        frame[name] = agents[name]
-    frame["agent_bits"] = agents["on_target"] * ON_TARGET + agents["alive"] * ALIVE
-    frame["target_x"], frame["target_y"] = targets["x"], targets["y"]
-    frame["target_bits"] = targets["present"] * PRESENT
+    for name in ("x", "y", "vx", "vy", "target_x", "target_y", "links"):
+        frame[name] = getattr(frames, name)[at]
+    frame["repulsion"] = frames.memory[REPULSION][at] if REPULSION in frames.memory else np.nan
+    frame["degree"] = frames.neighbors[at]
+    frame["agent_bits"] = frames.on_target[at] * ON_TARGET + frames.alive[at] * ALIVE
+    frame["target_bits"] = frames.target_present[at] * PRESENT
     return frame.tobytes()
 
 
 def gauges_of(frame: bytes) -> Gauges:
     """Return the numbers of a packed frame."""
-    numbers = np.frombuffer(frame, _layout(0, 0), count=1)["gauges"][0]  # they come before the agents
+    numbers = np.frombuffer(frame, _layout(0, 0, 0), count=1)["gauges"][0]  # they come before the agents
     return Gauges._make([*numbers[:5].tolist(), numbers[5:]])
 
 
 @cache
-def _layout(agents: int, targets: int) -> np.dtype[np.void]:
+def _layout(agents: int, targets: int, link_bytes: int) -> np.dtype[np.void]:
     """Little endian, without gaps."""
     per_agent = [(name, "<f4", (agents,)) for name in ("x", "y", "vx", "vy", "repulsion")]
     per_target = [(name, "<f4", (targets,)) for name in ("target_x", "target_y")]
@@ -80,12 +70,13 @@ def _layout(agents: int, targets: int) -> np.dtype[np.void]:
             ("step", "<u4"),
             ("agents", "<u4"),
             ("targets", "<u4"),
-            ("reserved", "<u4"),
+            ("link_bytes", "<u4"),
             ("gauges", "<f4", (5 + BINS,)),
             *per_agent,
             *per_target,
             ("degree", "<u2", (agents,)),
             ("agent_bits", "u1", (agents,)),
             ("target_bits", "u1", (targets,)),
+            ("links", "u1", (agents, link_bytes)),
         ]
     )

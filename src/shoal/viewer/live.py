@@ -8,7 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from shoal.core.errors import ScenarioError
-from shoal.metrics.summary import METRICS
+from shoal.core.links import link_bytes
+from shoal.record.course import value_of
+from shoal.record.frames import moment_of
 from shoal.record.trajectory import Trajectory
 from shoal.run.carry_over import carry_over
 from shoal.run.compiling import mark_compiled
@@ -21,8 +23,7 @@ from shoal.scenario.schema import Scenario
 from shoal.strategies import CATALOGUE
 from shoal.strategies.contract import RESERVED
 from shoal.viewer.frame import RECENT, Gauges, pack
-from shoal.viewer.meter import Meter
-from shoal.viewer.scene import REPULSION, as_json, scene_of
+from shoal.viewer.scene import as_json, scene_of
 
 Table = dict[str, Any]
 
@@ -64,25 +65,7 @@ class LiveRun:
     def frame(self) -> bytes:
         """The bytes of the frame of now."""
         shown = self.simulation.look()
-        size = self.simulation.scenario.agents
-        memory = shown.memory.get(REPULSION)
-        return pack(
-            run=self.place,
-            epoch=self._epoch,
-            step=self.simulation.number,
-            gauges=self._gauges(shown),
-            agents={
-                "x": shown.x[0],
-                "y": shown.y[0],
-                "vx": shown.vx[0],
-                "vy": shown.vy[0],
-                "repulsion": np.full(size, np.nan) if memory is None else memory[0],
-                "degree": self.simulation.swarm.neighbors[:size],
-                "on_target": shown.on_target[0],
-                "alive": shown.alive[0],
-            },
-            targets={"x": shown.target_x[0], "y": shown.target_y[0], "present": shown.target_present[0]},
-        )
+        return pack(shown, 0, run=self.place, epoch=self._epoch, gauges=self._gauges(shown))
 
     def scenario_with(self, changes: Mapping[str, Any]) -> tuple[Table, Scenario]:
         """Return table and scenario with some fields changed; nothing happens yet.
@@ -172,9 +155,9 @@ class LiveRun:
         self._epoch += 1
         self._facts = facts_of(simulation.scenario)
         scene = scene_of(
-            simulation.scenario.model_dump(mode="json"),
-            self._facts,
+            simulation.scenario,
             simulation.memory_fields,
+            has_links=link_bytes(self._facts.agents) > 0,
             epoch=self._epoch,
             since=simulation.number,
         )
@@ -186,15 +169,15 @@ class LiveRun:
         return _Mark(self.simulation.number, present, self._before.on_target + float(tally.on_target.sum()))
 
     def _gauges(self, shown: Trajectory) -> Gauges:
-        tally, facts, swarm = self.simulation.tally, self._facts, self.simulation.swarm
-        xi_now, phi = Meter(facts, shown).read(0)
+        tally, facts = self.simulation.tally, self._facts
+        moment = moment_of(shown, 0, facts)
         return Gauges(
-            time_on_target=METRICS["time_on_target"].formula(tally, facts),
+            time_on_target=value_of("time_on_target", tally, facts),
             recent=self._recent(),
-            xi=METRICS["xi"].formula(tally, facts),
-            xi_now=xi_now,
-            engaged=float(swarm.engaged[: facts.agents].sum()),
-            phi=phi,
+            xi=value_of("xi", tally, facts),
+            xi_now=moment.xi,
+            engaged=float(shown.engaged.sum()),
+            phi=moment.phi.sum(axis=0),
         )
 
     def _recent(self) -> float:

@@ -5,65 +5,62 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from shoal.metrics.summary import Facts
+from shoal.scenario.choices import speed_of
+from shoal.scenario.schema import Scenario
 from shoal.scenario.strategy_choice import params_model
 from shoal.strategies import Strategy
-from shoal.strategies.contract import RESERVED
-from shoal.strategies.plugins import find_strategy
+from shoal.viewer.frame import REPULSION
 
-REPULSION = "repulsion"  # the memory field that the page shows as a_R
 _EXACT = 2**53  # beyond, JavaScript's numbers have gaps
 
 
 def scene_of(
-    scenario: dict[str, Any], facts: Facts, memory: Iterable[str], *, epoch: int = 0, since: int = 0
+    scenario: Scenario, memory: Iterable[str], *, has_links: bool, epoch: int = 0, since: int = 0
 ) -> dict[str, Any]:
-    """Return the scene of a scenario as its file would say it, SI and defaults filled in.
+    """Return the scene of a scenario, SI and defaults filled in.
 
     Parameters
     ----------
     memory : fields that agents remember
+    has_links : whether frames say who hears whom
     epoch, since : number of this scene, and the step that it begins with
     """
-    area, network = scenario["area"], scenario["network"]
-    strategy = scenario["strategy"]
-    known = find_strategy(strategy["name"], strategy.get("source"))
-    seed = scenario["seed"]
+    area, strategy, seed = scenario.area, scenario.strategy, scenario.seed
     return {
         "epoch": epoch,
-        "name": scenario["name"],
-        "time_step": scenario["time_step"],
-        "steps": scenario["steps"],
+        "name": scenario.name,
+        "time_step": scenario.time_step,
+        "steps": scenario.steps,
         "seed": seed if seed < _EXACT else str(seed),
-        "unit": facts.unit,
+        "unit": scenario.unit,
         "since": since,
         "area": {
-            "width": area["width"],
-            "height": area["height"],
-            "half_x": area["width"] / 2 - area["agent_margin"],
-            "half_y": area["height"] / 2 - area["agent_margin"],
+            "width": area.width,
+            "height": area.height,
+            "half_x": area.width / 2 - area.agent_margin,
+            "half_y": area.height / 2 - area.agent_margin,
         },
         "fleets": [
             {
-                "name": fleet["name"],
+                "name": fleet.name,
                 "count": count,
-                "max_speed": fleet["max_speed"],
-                "sensor_radius": fleet["sensor_radius"],
+                "max_speed": fleet.max_speed,
+                "sensor_radius": fleet.sensor_radius,
             }
-            for fleet, count in zip(scenario["fleets"], facts.counts, strict=True)
+            for fleet, count in zip(scenario.fleets, scenario.counts, strict=True)
         ],
         "targets": [
-            {"kind": target["kind"], "radius": target["radius"], "speed": target.get("speed")}
-            for target in scenario["targets"]
+            {"kind": target.kind, "radius": target.radius, "speed": speed_of(target)} for target in scenario.targets
         ],
-        "neighbors": network["neighbors"],
-        "range": network.get("range"),
+        "neighbors": scenario.network.neighbors,
+        "range": scenario.network.range,
         "strategy": {
-            "name": strategy["name"],
-            "params": {name: value for name, value in strategy.items() if name not in RESERVED},
-            "summary": known.summary if known else "",
+            "name": strategy.name,
+            "params": strategy.params,
+            "summary": strategy.known.summary if strategy.known else "",
         },
         "has_repulsion": REPULSION in memory,
+        "has_links": has_links,
     }
 
 

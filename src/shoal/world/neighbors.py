@@ -118,6 +118,16 @@ def link_nearest(links, neighbors, agents):
 
 
 @kernel
+def count_heard(links, agents):
+    """Set `links.heard` to how many each listener hears."""
+    for i in range(links.reach.size):
+        links.heard[i] = 0
+    for j in range(agents):
+        for i in range(links.reach.size):
+            links.heard[i] += 1 if linked(links, j, i) else 0
+
+
+@kernel
 def settle_ties(links, neighbors, agents):
     """Mend the listeners whose `links.heard` is not k; return whether there were any."""
     mended = False

@@ -1,0 +1,119 @@
+"""A scenario as a record tells it: of the right shape, but nothing that it names is loaded, opened or run."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any
+
+from pydantic import ConfigDict, Field, PlainValidator, SerializeAsAny, ValidationError
+from pydantic_core import PydanticCustomError
+
+from shoal.core.errors import StrategyError
+from shoal.core.units import Meters, MetersPerSecond
+from shoal.scenario.frozen import Frozen
+from shoal.scenario.schema import Fleet, Scenario
+from shoal.scenario.strategy_choice import StrategyChoice
+from shoal.scenario.targets import TARGETS
+from shoal.strategies import Strategy
+from shoal.strategies.plugins import known_strategy
+
+
+class RecordedStrategy(StrategyChoice):
+    """A strategy in the words of a record; its file or package may be another by now, or gone.
+
+    Attributes
+    ----------
+    known : the strategy, where this process has that very one already; else None
+    """
+
+    def __init__(self, table: Mapping[str, Any]) -> None:
+        rest = dict(table)
+        self.name, self.file, self.source = rest.pop("name"), rest.pop("file", None), rest.pop("source", None)
+        self.params = rest
+        self.known = known_strategy(self.name, self.source)
+
+    @property
+    def owner(self) -> Strategy:
+        """The strategy itself.
+
+        Raises
+        ------
+        StrategyError : this process has not loaded it
+        """
+        if self.known is None:
+            problem = "is only known by the words of a record"
+            raise StrategyError(f"strategy {self.name!r}", problem, "load its scenario: shoal.load(record.scenario)")
+        return self.known
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return RecordedStrategy, (self.flat(),)
+
+    @classmethod
+    def validate(cls, value: Any) -> "RecordedStrategy":
+        """Return the choice that a table tells."""
+        if isinstance(value, cls):
+            return value
+        if not isinstance(value, dict) or not isinstance(value.get("name"), str):
+            raise PydanticCustomError("strategy", "a strategy is a table with a name")
+        return cls(value)
+
+
+class RecordedFleet(Fleet):
+    """A fleet as a record tells it."""
+
+    strategy: RecordedStrategy | None = None
+
+
+class RecordedTarget(Frozen):
+    """A target of a kind that this Shoal does not know."""
+
+    model_config = ConfigDict(extra="allow")
+
+    kind: str
+    radius: Meters
+    speed: MetersPerSecond | None = None
+
+
+def _target(value: Any) -> Frozen:
+    """A target as a record tells it, without the fields that this Shoal does not know."""
+    if not isinstance(value, dict):
+        raise PydanticCustomError("target", "a target is a table with a kind")
+    kind = TARGETS.get(str(value.get("kind")))
+    if kind is None:
+        return RecordedTarget.model_validate(value)
+    return kind.model_validate({name: each for name, each in value.items() if name in kind.model_fields})
+
+
+class RecordedScenario(Scenario):
+    """A scenario as a record tells it. `shoal.load`, and so whatever runs it, validates it in full."""
+
+    fleets: tuple[RecordedFleet, ...] = Field(min_length=1)
+    strategy: RecordedStrategy
+    targets: tuple[Annotated[SerializeAsAny[Any], PlainValidator(_target)], ...] = Field(min_length=1)
+
+
+def recorded_scenario(table: Mapping[str, Any]) -> RecordedScenario:
+    """Return the scenario in a record's words; fields that this Shoal does not know are left out.
+
+    Raises
+    ------
+    ValidationError : pydantic's, where it is not of the shape of a scenario
+    """
+    try:
+        return RecordedScenario.model_validate(table)
+    except ValidationError as error:
+        unknown = [each["loc"] for each in error.errors() if each["type"] == "extra_forbidden"]
+        if not unknown:
+            raise
+        return RecordedScenario.model_validate(_without(table, unknown))
+
+
+def _without(part: Any, paths: list[tuple[Any, ...]]) -> Any:
+    """A table or list without what is at some paths."""
+    gone = {path[0] for path in paths if len(path) == 1}
+    deeper = {path[0] for path in paths if len(path) > 1}
+
+    def of(key: Any, value: Any) -> Any:
+        return _without(value, [path[1:] for path in paths if path[0] == key]) if key in deeper else value
+
+    if isinstance(part, Mapping):
+        return {key: of(key, value) for key, value in part.items() if key not in gone}
+    return [of(key, value) for key, value in enumerate(part)] if isinstance(part, (list, tuple)) else part
