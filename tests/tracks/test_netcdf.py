@@ -108,8 +108,8 @@ class TestNetcdf:
     @pytest.mark.parametrize(
         ("units", "more", "words"),
         [
-            ("seconds", {}, "no time that was recorded"),
-            ("fortnights since 2020-01-01", {}, "no time that was recorded"),
+            ("seconds", {}, "not a time that was recorded"),
+            ("fortnights since 2020-01-01", {}, "not a time that was recorded"),
             (UNITS, {"calendar": "noleap"}, "calendar 'noleap'"),
             ("seconds since yesterday", {}, "'yesterday' cannot be read"),
         ],
