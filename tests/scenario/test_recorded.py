@@ -47,6 +47,11 @@ class TestShape:
         assert repr(recorded) == repr(scenario())
         assert recorded.model_dump(mode="json") == told()
 
+    def test_its_hash_is_the_one_that_its_record_tells(self):
+        recorded = recorded_scenario(told({"strategy": {"name": "gone", "pull": 1.0}}), hash="0123456789abcdef")
+        assert recorded.hash == copy.deepcopy(recorded).hash == "0123456789abcdef"
+        assert "0123456789abcdef" in repr(recorded)
+
     @pytest.mark.parametrize("twin", [copy.copy, copy.deepcopy, lambda each: pickle.loads(pickle.dumps(each))])
     def test_its_copies_say_the_same(self, twin):
         assert twin(recorded_scenario(told())) == scenario()

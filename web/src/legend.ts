@@ -16,7 +16,7 @@ export class Legend {
     for (const fleet of scene.fleets) {
       this.add(fleetGlyph(styleOf(fleet)), `${count(fleet.count)} ${fleet.name}, ${short(fleet.max_speed)} m/s`);
     }
-    this.add(glyph("rimmed", "currentColor", svg("circle", { r: 5 })), "on target");
+    this.add(glyph("rimmed", "currentColor", svg("circle", { r: 5 })), "reports a target");
     for (const words of targetKinds(scene)) {
       const disc = svg("circle", { r: 6, "fill-opacity": 0.22, fill: "currentColor", stroke: "currentColor" });
       this.add(glyph("target", TARGET_COLOR, disc, svg("path", { d: "M-3 0H3M0-3V3", stroke: "currentColor" })), words);

@@ -196,7 +196,7 @@ export class Stage {
       scene.has_links ? `hears ${heardBy(frame, agent).length / 2} (k ${frame.degree[agent]})` : `k ${frame.degree[agent]}`,
     ];
     if (Number.isFinite(frame.repulsion[agent])) parts.push(`a_R ${fixed(frame.repulsion[agent], 3)} m`);
-    if (isOnTarget(frame, agent)) parts.push("on target");
+    if (isOnTarget(frame, agent)) parts.push("reports a target");
     this.hint.textContent = parts.join(" · ");
   }
 

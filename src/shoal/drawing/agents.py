@@ -1,4 +1,4 @@
-"""Buoys as marks: told apart by fleet, by speed, and by being on target; who is not there is not drawn."""
+"""Buoys as marks: told apart by fleet, by speed, and by what they report; who is not there is not drawn."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class AgentMarks:
-    """One mark per buoy that is alive; on target it is bigger and has a dark rim."""
+    """One mark per buoy that is alive; it is bigger and has a dark rim where it reports a target, false alarms too."""
 
     def __init__(self, axes: "Axes", record: Record) -> None:
         self._ends = np.cumsum(record.facts.counts)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 ROW = 0.18  # [inch] height of a row
 _LETTER, _SIGN = 0.058, 0.42  # [inch] width of a letter; of a sign and the space around it
 _LONGEST = 26  # letters of a name
-_HALO, _SENSOR = "repulsion a_R", "sensor"
+_HALO, _SENSOR, _REPORTS = "repulsion a_R", "sensor", "reports a target"
 
 
 def draw_legend(
@@ -34,9 +34,7 @@ def draw_legend(
     width, shift : room for the legend, and how far it begins left of the axes [inch]; default: that of the axes
     """
     signs = _fleet_signs(record)
-    signs.append(
-        _sign("on target", "o", markerfacecolor="white", markeredgecolor=INK, markeredgewidth=1.3, markersize=6)
-    )
+    signs.append(_sign(_REPORTS, "o", markerfacecolor="white", markeredgecolor=INK, markeredgewidth=1.3, markersize=6))
     signs.append(_target_sign())
     if halos:
         face, edge = fleet_color(0) + "17", fleet_color(0) + "60"
@@ -54,7 +52,7 @@ def draw_map_legend(axes: "Axes", record: Record) -> float:
 
 def legend_height(record: Record, width: float, *, halos: bool = False, sensors: bool = False) -> float:
     """Height of the legend above a snapshot of a width [inch]."""
-    labels = [*_fleet_labels(record), "on target", "target", *[_HALO] * halos, *[_SENSOR] * sensors]
+    labels = [*_fleet_labels(record), _REPORTS, "target", *[_HALO] * halos, *[_SENSOR] * sensors]
     return ROW * _rows(labels, width)
 
 

@@ -25,7 +25,7 @@ def draw_snapshot(
     halos: bool = False,
     sensors: bool = False,
 ) -> None:
-    """Draw buoys and targets of one frame; buoys on target have a dark rim, faster ones are bigger.
+    """Draw buoys and targets of one frame; buoys that report a target have a dark rim, faster ones are bigger.
 
     Parameters
     ----------

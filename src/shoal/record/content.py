@@ -126,7 +126,7 @@ def _scenario_of(raw: dict[str, Any]) -> RecordedScenario:
     if not isinstance(raw.get("scenario"), dict):
         raise ValueError("record.json has no scenario")
     try:
-        return recorded_scenario(raw["scenario"])
+        return recorded_scenario(raw["scenario"], raw["provenance"]["scenario_hash"])
     except ValidationError as errors:
         first = errors.errors()[0]
         raise ValueError(f"record.json: scenario.{'.'.join(map(str, first['loc']))}: {first['msg']}") from None

@@ -87,8 +87,8 @@ class Simulation:
         self._begin, self._rollout = entry_points(self.crew)
         self._which = Run(np.uint64(scenario.seed), run, scenario.steps)
         self._phases = addresses()
-        self._no_frames = self._new_frames(0)
-        self._placed = Placed(self._stage(self._no_frames))
+        self._placed = Placed(self._stage(self._new_frames(0)))
+        self._looking = Placed(self._stage(self._new_frames(1)))
         places = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
         lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
         _set_out(self._placed.address, places, lifetimes, losses_of(scenario))
@@ -104,7 +104,8 @@ class Simulation:
     def begin(self) -> None:
         """Set up every agent's memory, as its strategy does before the first step."""
         with self.crew.naming_errors():
-            self._begin(self._in_place().address, self._minds, self.crew.params)
+            self._placed = self._in_place(self._placed)
+            self._begin(self._placed.address, self._minds, self.crew.params)
 
     def advance(self, steps: int, *, every: int | None = None, tail: int | None = None) -> Trajectory | None:
         """Run a number of steps; with `every`, return the frames of every n-th step and of all from step `tail` on.
@@ -121,7 +122,8 @@ class Simulation:
             raise ScenarioError("advance", f"is asked for {steps} steps", "time goes forward: ask for 0 or more")
         first, last = self.number, self.number + steps
         if every is None:
-            self._roll(self._in_place(), first, last, NEVER, NEVER)
+            self._placed = self._in_place(self._placed)
+            self._roll(self._placed, first, last, NEVER, NEVER)
             return None
         tail = NEVER if tail is None else tail
         frames = self._new_frames(count_frames(first, last, every, tail))
@@ -134,10 +136,10 @@ class Simulation:
         Its links are those of the coming step. In the sequential order, in which agents hear what others have just
         done, they are those of agents that all decide first.
         """
-        frames = self._new_frames(1)
-        placed = Placed(self._stage(frames))
-        _look(placed.address, self.number)
-        return Trajectory.from_frames(frames, self.memory_fields)
+        self._looking = self._in_place(self._looking)
+        _look(self._looking.address, self.number)
+        seen = Frames(*(array.copy() for array in self._looking.stage.frames))
+        return Trajectory.from_frames(seen, self.memory_fields)
 
     @contextmanager
     def edit(self) -> Iterator[State]:
@@ -207,12 +209,11 @@ class Simulation:
                 "look for a division by zero or the root of a negative number",
             )
 
-    def _in_place(self) -> Placed:
+    def _in_place(self, placed: Placed) -> Placed:
         """The stage, where kernels find it; it stays there from call to call unless a part of it is another one."""
-        stage = self._stage(self._no_frames)
-        if any(one is not other for one, other in zip(stage, self._placed.stage, strict=True)):
-            self._placed = Placed(stage)
-        return self._placed
+        stage = self._stage(placed.stage.frames)
+        same = all(one is other for one, other in zip(stage, placed.stage, strict=True))
+        return placed if same else Placed(stage)
 
     def _identity(self) -> str:
         return f"{self.scenario.hash}-seed{self.scenario.seed}-run{self.run}-results{RESULTS_VERSION}"

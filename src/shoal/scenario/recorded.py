@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Annotated, Any
 
-from pydantic import ConfigDict, Field, PlainValidator, SerializeAsAny, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, PlainValidator, PrivateAttr, SerializeAsAny, ValidationError
 from pydantic_core import PydanticCustomError
 
 from shoal.core.errors import StrategyError
@@ -89,21 +89,32 @@ class RecordedScenario(Scenario):
     strategy: RecordedStrategy
     targets: tuple[Annotated[SerializeAsAny[Any], PlainValidator(_target)], ...] = Field(min_length=1)
 
+    _told_hash: str = PrivateAttr(default="")
 
-def recorded_scenario(table: Mapping[str, Any]) -> RecordedScenario:
-    """Return the scenario in a record's words; fields that this Shoal does not know are left out.
+    @property
+    def hash(self) -> str:
+        """The hash that its record tells: it may be of defaults that nobody here knows."""
+        return self._told_hash or super().hash
+
+
+def recorded_scenario(table: Mapping[str, Any], hash: str = "") -> RecordedScenario:
+    """Return the scenario in a record's words, with the hash that it tells.
+
+    Fields that this Shoal does not know are left out.
 
     Raises
     ------
     ValidationError : pydantic's, where it is not of the shape of a scenario
     """
     try:
-        return RecordedScenario.model_validate(table)
+        scenario = RecordedScenario.model_validate(table)
     except ValidationError as error:
         unknown = [each["loc"] for each in error.errors() if each["type"] == "extra_forbidden"]
         if not unknown:
             raise
-        return RecordedScenario.model_validate(_without(table, unknown))
+        scenario = RecordedScenario.model_validate(_without(table, unknown))
+    BaseModel.__setattr__(scenario, "_told_hash", hash)  # which a Frozen does not let anybody else do
+    return scenario
 
 
 def _without(part: Any, paths: list[tuple[Any, ...]]) -> Any:
