@@ -14,11 +14,11 @@ SOURCE = Path(shoal.__file__).parent
 TERMS = re.findall(r"^\| ([^|]+) \|", TABLE, re.MULTILINE)
 DICTIONARY = """
 actor adaptive add address array arrived asset atomic bar bound box build cannot carry change chart check choice
-choose clean cli client command compare compared compiled compiler compiling console content core count crash csv data
+choose clean cli client column command compare compared compiled compiler compiling console content core count crash csv data
 dataframe dataset declared difference disc dive drag drawing duration each edit effort encoder ended error executor
 experiment export extra figure file film folder format frontier frozen geojson gpx graph ground guard histogram info
 inner installed interval is kept keyword kill kml label layout legend listen listing live load lock locked look main
-map mark meaning measure message meta metric missing move moving name named netcdf new nmea no now numba older
+map mark meaning measure message meta missing move moving name named netcdf new nmea no now numba older
 one option output over page paired panel param pause picture place placement plain play plot plugin print private
 progress published quantity range read recorded reproduce restart result robustness running said saved say schema
 scored seek seen self sensing sensitivity sensor server several shoal show side signal simulate simulation size stamp
@@ -57,7 +57,7 @@ def named():
 
 def explained():
     listed = [*TERMS, *KINDS, *(each.name for each in (*shoal.list_strategies(), *shoal.list_metrics()))]
-    return {word for name in listed for word in words(name)}
+    return {form for name in listed for word in words(name) for form in singular(word)}
 
 
 def test_every_noun_of_the_source_is_in_the_glossary():

@@ -149,6 +149,19 @@ class TestStores:
         assert (kept / name / "runs.sqlite").read_bytes() == before
 
 
+def test_a_sweep_of_today_goes_on_whatever_metrics_it_knew(kept, version, capsys):
+    """Its store has a list of metrics in its identity, as all once had."""
+    if version < RESULTS_VERSION:
+        pytest.skip("older")
+    command = ("sweep", DATA / "tiny.toml", "--vary", "neighbors=2,3", "--vary", "strategy=knn-pso,lattice")
+    before = read_rows(kept / "sweep")[1]
+    code, _, err = shoal(capsys, *command, "--runs", 3, "--out", kept / "sweep", "--jobs", 1)
+    assert code == 0, err
+    after = read_rows(kept / "sweep")[1]
+    assert [row for row in after if row["run"] < 2] == before
+    assert len(after) == 12
+
+
 def test_an_older_sweep_is_drawn(kept, capsys, tmp_path):
     code, _, err = shoal(capsys, "plot", kept / "sweep", "--out", tmp_path / "p.png")
     assert code == 0, err

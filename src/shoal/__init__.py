@@ -13,6 +13,7 @@ Record, open_record, save_record, load_results what runs leave behind
 list_strategies, list_metrics, list_presets    what there is
 strategy, kernel, uniform, normal              to write a strategy, with the units
 Meters, MetersPerSecond, Seconds, Degrees      of its parameters
+Measurement, Sum, Metric                       to write a metric
 plot                                           every figure, in one line each
 Buoy, Reading, Report, briefing                to decide on board, without an engine
 ShoalError                                     base of every error raised on purpose
@@ -27,11 +28,11 @@ from shoal.core.version import VERSION as __version__  # noqa: N811 (the name ev
 
 if TYPE_CHECKING:
     from shoal.buoy.buoy import Buoy
-    from shoal.compiler.kernel import kernel
     from shoal.core.draws import normal, uniform
     from shoal.core.errors import ShoalError
     from shoal.core.messages import Reading, Report
     from shoal.core.units import Degrees, Meters, MetersPerSecond, Seconds
+    from shoal.metrics.contract import Measurement, Metric, Sum
     from shoal.paper.reproduce import reproduce
     from shoal.record.files import open_record, save_record
     from shoal.record.record import Record
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
     from shoal.scenario.briefing import briefing
     from shoal.scenario.load import load, presets, to_toml
     from shoal.scenario.schema import Scenario
-    from shoal.strategies import strategy
+    from shoal.strategies import kernel, strategy
     from shoal.study import plot
     from shoal.study.check import check
     from shoal.study.compared import compare
@@ -53,8 +54,8 @@ _HOMES = {
     "shoal.core.draws": ("normal", "uniform"),
     "shoal.core.errors": ("ShoalError",),
     "shoal.core.messages": ("Reading", "Report"),
-    "shoal.compiler.kernel": ("kernel",),
     "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Seconds"),
+    "shoal.metrics.contract": ("Measurement", "Metric", "Sum"),
     "shoal.paper.reproduce": ("reproduce",),
     "shoal.record.files": ("open_record", "save_record"),
     "shoal.record.record": ("Record",),
@@ -63,7 +64,7 @@ _HOMES = {
     "shoal.scenario.schema": ("Scenario",),
     "shoal.run.simulate": ("simulate",),
     "shoal.run.simulation": ("Simulation",),
-    "shoal.strategies": ("strategy",),
+    "shoal.strategies": ("kernel", "strategy"),
     "shoal.study.check": ("check",),
     "shoal.study.compared": ("compare",),
     "shoal.study.listing": ("list_metrics", "list_presets", "list_strategies"),
@@ -75,8 +76,10 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
     "Buoy",
     "Degrees",
+    "Measurement",
     "Meters",
     "MetersPerSecond",
+    "Metric",
     "Reading",
     "Record",
     "Report",
@@ -84,6 +87,7 @@ __all__ = [
     "Seconds",
     "ShoalError",
     "Simulation",
+    "Sum",
     "__version__",
     "briefing",
     "check",

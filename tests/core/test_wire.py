@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from shoal.core.errors import MessageError
 from shoal.core.messages import ENVELOPE_BYTES, REPORT_BYTES, Report
 from shoal.core.wire import told_class, wire_bytes, wire_dtype
-from shoal.metrics.summary import Facts
+from shoal.metrics.contract import Facts
 
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
 FIELDS = ("sighting_x", "sighting_time")

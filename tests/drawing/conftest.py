@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from shoal.metrics.summary import Facts
-from shoal.metrics.tally import BINS, new_tally
+from shoal.metrics.contract import Facts
+from shoal.metrics.heading_bearing import BINS
+from shoal.metrics.tally import new_tally
 from shoal.record.older import roster_from
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory

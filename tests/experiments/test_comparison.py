@@ -5,7 +5,7 @@ import pytest
 
 from shoal.core.errors import ScenarioError
 from shoal.experiments.cells import make_cells
-from shoal.experiments.comparison import compare, direction_of
+from shoal.experiments.comparison import compare
 from shoal.experiments.contenders import contenders
 from shoal.experiments.run_comparison import by_condition, comparison_design, values_of
 from shoal.metrics.summary import METRICS
@@ -99,10 +99,10 @@ class TestMissingRuns:
 
 class TestDirection:
     def test_every_metric_with_a_better_side_exists(self):
-        assert direction_of("time_on_target") == 1
-        assert direction_of("first_detection") == -1
-        assert direction_of("xi") == 0
-        assert {name for name in METRICS if direction_of(name)} >= {"targets_observed", "losses", "power"}
+        assert METRICS["time_on_target"].direction == 1
+        assert METRICS["first_detection"].direction == -1
+        assert METRICS["xi"].direction == 0
+        assert {name for name, each in METRICS.items() if each.direction} >= {"targets_observed", "losses", "power"}
 
 
 class TestContenders:

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from coasting import coasting
 from shoal.metrics.contacts import tally_contacts
+from shoal.metrics.contract import Step
 from shoal.metrics.summary import evaluate
 from shoal.metrics.tally import new_tally
 from shoal.run.facts import facts_of
@@ -23,7 +24,7 @@ def counted(*watchers, present=None):
     for step in range(len(watchers[0])):
         targets["watchers"] = [each[step] for each in watchers]
         targets["present"] = 1 if present is None else present[step]
-        tally_contacts(tally, 0, targets)
+        tally_contacts(tally, Step(step, 0, 0), None, None, targets, None)
     return tally
 
 

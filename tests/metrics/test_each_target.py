@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from scenarios import scenario
+from shoal.metrics.contract import Facts
 from shoal.metrics.each_target import each_target, loss_lengths
-from shoal.metrics.summary import METRICS, Facts
+from shoal.metrics.summary import METRICS
 from shoal.metrics.tally import new_tally
 from shoal.run.simulate import simulate
 

@@ -5,7 +5,8 @@ import pytest
 
 from coasting import coasting
 from scenarios import scenario
-from shoal.metrics.summary import evaluate, fleet_power
+from shoal.metrics.effort import fleet_power
+from shoal.metrics.summary import evaluate
 from shoal.run.facts import facts_of
 from shoal.run.simulation import Simulation
 

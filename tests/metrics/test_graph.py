@@ -9,6 +9,9 @@ from hypothesis import strategies as st
 
 from coasting import coasting
 from scenarios import fleets, scenario
+from shoal.core.agents import new_swarm
+from shoal.engine.stage import Scratch
+from shoal.metrics.contract import Step
 from shoal.metrics.graph import tally_graph
 from shoal.metrics.summary import evaluate
 from shoal.metrics.tally import new_tally
@@ -27,7 +30,10 @@ def measured(linked, alive=None):
     world = World(n, 1, 0.1, 1.0, 1.0, 1.0, 1.0, False, False, False, False, False, 1.0)
     tally = new_tally(steps=1, batches=1, fleets=1, agents=n, targets=1)
     there = np.ones(n) if alive is None else np.asarray(alive, float)
-    tally_graph(tally, 0, world, links, there, np.zeros(n, np.int64), 0)
+    scratch = Scratch(links, np.zeros(n, np.int64), np.zeros((2, n)), np.zeros(n), np.zeros(n), np.zeros(n))
+    swarm = new_swarm([n], ())
+    swarm.alive[:n] = there
+    tally_graph(tally, Step(0, 0, 0), world, swarm, None, scratch)
     return tally.components[0], tally.clustering[0]
 
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from shoal.metrics.robustness import DURING, robustness
-from shoal.metrics.tally import WINDOWS, new_tally
+from shoal.metrics.tally import new_tally
+from shoal.metrics.time_on_target import WINDOWS
 
 
 def tally_of(on_target, present=1.0):

@@ -3,18 +3,12 @@
 import numpy as np
 import pytest
 
-from shoal.metrics.summary import (
-    METRICS,
-    Facts,
-    batch_values,
-    bounds_of,
-    evaluate,
-    fleet_fluctuation,
-    fleet_stationary,
-    mean_max_speed,
-    phi_histogram,
-)
+from shoal.metrics.contract import Facts
+from shoal.metrics.heading_bearing import fleet_stationary, phi_histogram
+from shoal.metrics.shares import mean_max_speed
+from shoal.metrics.summary import METRICS, batch_values, bounds_of, evaluate
 from shoal.metrics.tally import batch_of, new_tally
+from shoal.metrics.velocity_fluctuation import fleet_fluctuation
 
 FACTS = Facts(fleets=("fast", "slow"), counts=(10, 30), max_speeds=(2.0, 1.0), unit=2.0, time_step=0.5)
 

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as npst
 
 from coasting import coasting
-from shoal.metrics.summary import evaluate, fleet_fluctuation
+from shoal.metrics.summary import evaluate
+from shoal.metrics.velocity_fluctuation import fleet_fluctuation
 from shoal.run.facts import facts_of
 
 RING = [(5 * math.cos(a), 5 * math.sin(a)) for a in np.arange(8) * math.pi / 4]

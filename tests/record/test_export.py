@@ -10,8 +10,9 @@ import pytest
 import shoal
 from scenarios import scenario
 from shoal.core.errors import MissingExtraError, RecordError
-from shoal.metrics.heading_bearing import CENTERS
-from shoal.metrics.summary import METRICS, evaluate, fleet_fluctuation, fleet_stationary, phi_histogram
+from shoal.metrics.heading_bearing import CENTERS, fleet_stationary, phi_histogram
+from shoal.metrics.summary import METRICS, evaluate
+from shoal.metrics.velocity_fluctuation import fleet_fluctuation
 from shoal.record.export import to_netcdf, to_xarray, to_zarr
 from shoal.record.trajectory import Trajectory
 from shoal.strategies import CATALOGUE

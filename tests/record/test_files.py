@@ -3,6 +3,7 @@
 import errno
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -84,6 +85,17 @@ class TestRoundTrip:
     def test_an_opened_record_can_be_saved_again(self, saved, tmp_path):
         save_record(open_record(saved), tmp_path / "copy")
         assert open_record(tmp_path / "copy").summary() == open_record(saved).summary()
+
+    def test_a_sum_that_it_is_older_than_leaves_its_metrics_unknown_and_no_others(self, record, tmp_path):
+        older = [tally._replace(cubes=np.full_like(tally.cubes, np.nan)) for tally in record.tallies]
+        save_record(replace(record, tallies=tuple(older)), tmp_path / "older")
+        with np.load(tmp_path / "older" / "tallies.npz") as arrays:
+            assert "0.distance" in arrays
+            assert "0.cubes" not in arrays
+        opened = open_record(tmp_path / "older")
+        assert np.isnan(opened.estimate("power").mean)
+        assert opened.estimate("speed") == record.estimate("speed")
+        assert opened.summary()["power"] == {"mean": None, "ci95": None, "runs": [None] * 3}
 
     def test_folders_on_the_way_are_made(self, record, tmp_path):
         save_record(record, tmp_path / "a" / "b" / "record")

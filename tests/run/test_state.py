@@ -5,8 +5,11 @@ import pytest
 
 from scenarios import scenario
 from shoal.core.agents import Bodies, Makes
-from shoal.core.errors import StrategyError
+from shoal.core.errors import RecordError, StrategyError
+from shoal.metrics.summary import METRICS
+from shoal.record.saved_state import write_state
 from shoal.run.carry_over import carry_over
+from shoal.run.facts import facts_of
 from shoal.run.simulation import Simulation
 from shoal.run.state import arrays_of
 from shoal.world.radio import Air, Network
@@ -178,3 +181,36 @@ class TestLook:
         away = np.hypot(swarm.x - target["x"], swarm.y - target["y"])
         assert swarm.engaged[:50].tolist() == (away <= 1.0)[:50].tolist()
         assert swarm.on_target[:50].sum() > swarm.engaged[:50].sum()
+
+
+class TestSumsOfOtherDays:
+    """A sum that only the saved state has, or only this Shoal."""
+
+    @pytest.fixture
+    def file(self, running, tmp_path):
+        """Saved by a Shoal that did not count the cubes of speeds, and counted fish."""
+        arrays = {name: each for name, each in running.state().items() if name != "tally.cubes"}
+        write_state(tmp_path / "state.npz", running._identity(), arrays | {"tally.fish": np.ones(3)})
+        return tmp_path / "state.npz"
+
+    def test_go_on_as_unknown_and_all_others_as_ever(self, chosen, running, file):
+        resumed = Simulation(chosen)
+        resumed.restore(file)
+        resumed.advance(40)
+        running.advance(40)
+        facts = facts_of(chosen)
+        assert np.isnan(METRICS["power"].formula(resumed.tally, facts))
+        assert METRICS["speed"].formula(resumed.tally, facts) == METRICS["speed"].formula(running.tally, facts)
+        assert resumed.notes == [
+            "the saved state has no sum 'cubes', so that the metrics made of it are unknown",
+            "the saved state has a sum 'fish', which no installed package knows: it is dropped",
+        ]
+
+    def test_nothing_else_may_be_missing_or_more(self, chosen, running, tmp_path):
+        for arrays in (
+            {name: each for name, each in running.state().items() if name != "swarm.x"},
+            running.state() | {"fish": np.ones(3)},
+        ):
+            write_state(tmp_path / "other.npz", running._identity(), arrays)
+            with pytest.raises(RecordError, match="is no saved state"):
+                Simulation(chosen).restore(tmp_path / "other.npz")

@@ -38,7 +38,7 @@ def results(
     """
     from shoal.core.errors import ScenarioError
     from shoal.core.files import check_file
-    from shoal.experiments.results import aggregate, read_rows, to_csv, write_parquet
+    from shoal.experiments.results import aggregate, read_rows, to_csv, unknown_metrics, write_parquet
 
     kinds = [name for name, given in (("--csv", csv), ("--json", json_), ("--parquet", parquet)) if given]
     if len(kinds) > 1:
@@ -47,6 +47,9 @@ def results(
         check_file(parquet, ours=True)
     fields, rows = read_rows(folder)
     _tell_of(rows)
+    unknown = unknown_metrics(folder)
+    if unknown:
+        note(f"left out: {', '.join(unknown)}; the package that measures this is not installed")
     if parquet:
         write_parquet(rows, parquet)
         note(f"{len(rows)} runs: {parquet}")

@@ -14,16 +14,6 @@ from shoal.record.words import interval_text, mean_text
 from shoal.scenario.choices import degree_text, speed_of, strategy_text
 from shoal.scenario.schema import Scenario
 
-_LABELS = {
-    "time_on_target": "time on target",
-    "xi": "velocity fluctuation Xi",
-    "xi_raw": "Xi, not normalized",
-    "response": "response",
-    "engaged": "engaged agents",
-    "stationary": "stationary agents",
-    "target_present": "target there",
-}
-_OF_SEVERAL_TARGETS = ("targets_observed", "fairness")
 _OF_FLEETS = ("xi_raw", "stationary", "speed", "power")
 _OF_TARGETS = ("time_on_target", "first_detection", "reacquisition")
 
@@ -50,13 +40,13 @@ def print_record(record: Record) -> None:
         width = None if title else 28  # of labels: long names of fleets are cut, not numbers
         table.add_column(title, justify=justify, no_wrap=True, max_width=width)  # type: ignore[arg-type]
     for name, metric in METRICS.items():
-        if len(scenario.targets) > 1 or name not in _OF_SEVERAL_TARGETS:
-            table.add_row(_label(name), *_cells(record.estimate(name)), _unit(metric.unit))
+        if len(scenario.targets) > 1 or not metric.several_targets:
+            table.add_row(metric.words, *_cells(record.estimate(name)), _unit(metric.unit))
     _add_parts(table, record)
     console.print(table)
     console.print("phi histogram, agents per step from -1 (away) to +1 (toward):")
     console.print("  " + " ".join(f"{agents:.2f}" for agents in record.phi_histogram().sum(axis=0)))
-    short = ", ".join(_label(name) for name in record.too_short())
+    short = ", ".join(METRICS[name].words for name in record.too_short())
     if short:
         text = textwrap.fill(f"too short for an interval of {short}: more steps or more runs determine it", 78)
         console.print(styled(text, "dim"))
@@ -71,12 +61,12 @@ def _add_parts(table: Table, record: Record) -> None:
     for fleet in fleets:
         table.add_row(f"fleet {plain(fleet)}")
         for name, values in by_fleet.items():
-            table.add_row(f"  {_label(name)}", *_cells(values[fleet]), _unit(METRICS[name].unit))
+            table.add_row(f"  {METRICS[name].words}", *_cells(values[fleet]), _unit(METRICS[name].unit))
     targets = record.target_estimates()
     for number, target in enumerate(targets if len(targets) > 1 else [], 1):
         table.add_row(f"target {number}")
         for name in _OF_TARGETS:
-            table.add_row(f"  {_label(name)}", *_cells(target[name]), _unit(METRICS[name].unit))
+            table.add_row(f"  {METRICS[name].words}", *_cells(target[name]), _unit(METRICS[name].unit))
     for step, change in zip(record.changes(), record.robustness(), strict=True):
         table.add_row(f"step {step:,}: {_change(record, step)}")
         for name in ("before", "during", "after"):
@@ -96,10 +86,6 @@ def _change(record: Record, step: int) -> str:
         for changes, words in ((record.scenario.losses, "lost"), (record.scenario.joins, "join"))
     }
     return ", ".join(f"{count} {words}" for words, count in counts.items() if count)
-
-
-def _label(name: str) -> str:
-    return _LABELS.get(name, name.replace("_", " "))
 
 
 def _unit(unit: str) -> str:

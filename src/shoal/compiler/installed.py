@@ -26,6 +26,20 @@ def offered_sources() -> Iterator[bytes]:
                 yield path.read_bytes()
 
 
+def package_in(text: str) -> str | None:
+    """The package, of those that offer something, which a text names a file of; None if it names none."""
+    for entries in offers().values():
+        for entry in entries:
+            if any(str(path) in text for path in _files(entry.module)):
+                return package_of(entry)
+    return None
+
+
+def package_of(entry: EntryPoint) -> str:
+    """Whose an entry point is, as errors say it."""
+    return f"package {entry.dist.name!r}" if entry.dist else f"entry point {entry.value!r}"
+
+
 def _files(module: str) -> list[Path]:
     """The files of the package that a module is in, or of the module if it is in none; none if there is none."""
     spec = _outermost(module)

@@ -1,7 +1,7 @@
 """Files that declare themselves: of a folder of ours, or of an installed package that offers one as an entry point.
 
-A file declares itself by giving one name, such as METRIC, a value at its top level. What it declares has a name; an
-entry point is named the same. Files that do not say METRIC are in the folder for other reasons and are not imported.
+A file declares itself by giving one name, such as MEASUREMENT, a value at its top level. What it declares has a name;
+an entry point is named the same. Files that do not say it are in the folder for other reasons and are not imported.
 """
 
 import importlib
@@ -11,7 +11,7 @@ from importlib.metadata import EntryPoint
 from types import ModuleType
 from typing import Any, Generic, Protocol, TypeVar
 
-from shoal.compiler.installed import offers
+from shoal.compiler.installed import offers, package_of
 from shoal.core.errors import PluginError, ShoalError
 
 
@@ -40,7 +40,7 @@ def declared(folder: str, mark: str, kind: type[Kind], group: str) -> tuple[list
     Parameters
     ----------
     folder : the package whose files declare themselves, such as "shoal.metrics"
-    mark : the name that they give a value, such as METRIC
+    mark : the name that they give a value, such as MEASUREMENT
     kind : the type of that value
     group : of entry points, one of `compiler.installed.GROUPS`, each "name = module" or "name = module:mark"
     """
@@ -60,7 +60,7 @@ def declared(folder: str, mark: str, kind: type[Kind], group: str) -> tuple[list
 
 
 def import_marked(folder: str, mark: str) -> list[ModuleType]:
-    """Import the modules in a folder whose top level says a name, such as METRIC, in the order of their own names."""
+    """Import the modules in a folder whose top level says a name, such as MEASUREMENT; they are sorted by theirs."""
     modules = []
     for each in pkgutil.iter_modules(importlib.import_module(folder).__path__, f"{folder}."):
         finder: Any = each.module_finder
@@ -71,7 +71,7 @@ def import_marked(folder: str, mark: str) -> list[ModuleType]:
 
 def _of_package(name: str, entries: list[EntryPoint], mark: str, kind: type[Kind], builtin: bool) -> Declared[Kind]:
     what = mark.lower()
-    packages = sorted({_package(entry) for entry in entries})
+    packages = sorted({package_of(entry) for entry in entries})
     if len(entries) > 1:
         raise PluginError(f"{what} {name!r}", f"is offered by {' and '.join(packages)}", "uninstall all but one")
     entry, package = entries[0], packages[0]
@@ -95,7 +95,3 @@ def _load(entry: EntryPoint, package: str) -> Any:
     except (Exception, SystemExit) as error:
         reason = error.args[1] if isinstance(error, ShoalError) else f"{type(error).__name__}: {error}"
         raise PluginError(package, f"{entry.value} cannot be imported: {reason}", "fix or uninstall it") from error
-
-
-def _package(entry: EntryPoint) -> str:
-    return f"package {entry.dist.name!r}" if entry.dist else f"entry point {entry.value!r}"

@@ -80,14 +80,22 @@ def no_attribute(owner: str, name: str, known: Iterable[str]) -> AttributeError:
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """Return the question whether a known name was meant, a space after it; empty if none is near.
 
-    Near is the path that ends in it, or else what is spelt alike, what has these initials, the only one with this part.
+    Near is the path or the only name that ends in it, or else what is spelt alike, what has these initials, the only
+    one with this part.
     """
     names = list(known)
     near = [each for each in names if each.endswith(f".{name}")][:1]
+    near = near or _only(each for each in names if each.endswith(f"_{name}"))
     near = near or difflib.get_close_matches(name[:100], names, n=1)
     near = near or [each for each in names if len(name) > 1 and _initials(each) == name]
     near = near or [each for each in names if len(name) > 2 and name in each]
     return f"did you mean {near[0]!r}? " if len(near) == 1 else ""
+
+
+def _only(names: Iterable[str]) -> list[str]:
+    """These names if there is one, else none."""
+    found = list(names)
+    return found if len(found) == 1 else []
 
 
 def _initials(name: str) -> str:

@@ -96,8 +96,8 @@ def metric_phrases(record: Record) -> list[str]:
     """Key metrics, mean [95 % interval]."""
     engaged = record.estimate("engaged")
     return [
-        f"time on target {estimate_text(record.estimate('time_on_target'))}",
-        f"velocity fluctuation Ξ {estimate_text(record.estimate('xi'))}",
+        f"{record.metrics['time_on_target'].words} {estimate_text(record.estimate('time_on_target'))}",
+        f"{record.metrics['xi'].words.replace('Xi', 'Ξ')} {estimate_text(record.estimate('xi'))}",
         f"engaged {estimate_text(engaged)}" + (" agents" if math.isfinite(engaged.mean) else ""),
     ]
 

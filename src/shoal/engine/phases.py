@@ -8,13 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from shoal.compiler.kernel import kernel
+from shoal.compiler.installed import package_in
+from shoal.compiler.kernel import NumbaError, kernel
 from shoal.compiler.phase import phase
 from shoal.compiler.placed import part
 from shoal.core.draws import TARGET_STREAM, split
+from shoal.core.errors import PluginError
 from shoal.engine.frames import keep_frame, keep_links
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
 from shoal.engine.stage import FRAMES, RADIO, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD, Addresses
+from shoal.metrics.contract import Step
 from shoal.world.motion import limit_maneuver, limit_speed, move
 from shoal.world.neighbors import count_heard, link_nearest, measure_distances, rank_heard, settle_ties
 from shoal.world.presence import update_presence
@@ -32,9 +35,10 @@ def sense_all(stage, number, first, batch, key):
     targets = part(stage, TARGETS)
     tally = part(stage, TALLY)
     scratch = part(stage, SCRATCH)
-    active = update_presence(swarm, world, number) if world.mortal else world.agents
-    engaged = sense(swarm, targets, world, key)
-    measure_before_move(tally, batch, world, swarm, targets, (engaged, active), number, scratch)
+    if world.mortal:
+        update_presence(swarm, world, number)
+    sense(swarm, targets, world, key)
+    measure_before_move(tally, Step(number, batch, 0), world, swarm, targets, scratch)
     if radio.delay > 0:
         send(radio, swarm, number)
     return 0
@@ -117,7 +121,7 @@ def move_agents(stage, number, first, batch, key):
     last = first + scratch.leader.size
     there = min(last, world.agents)
     command_x, command_y = swarm.command_x[first:last], swarm.command_y[first:last]
-    measure_links(tally, batch, world, swarm, scratch, first, number)
+    measure_links(tally, Step(number, batch, first), world, swarm, part(stage, TARGETS), scratch)
     if radio.adaptive:
         adapt_degree(swarm, radio, scratch.links, said(radio, swarm, number), first, there, world)
     if world.inertial:
@@ -132,7 +136,7 @@ def move_agents(stage, number, first, batch, key):
 def measure(stage, number, first, batch, key):
     """Measure where agents head, while the targets are still where they were."""
     tally, world, swarm = part(stage, TALLY), part(stage, WORLD), part(stage, SWARM)
-    measure_after_move(tally, batch, world, swarm, part(stage, TARGETS), part(stage, SCRATCH))
+    measure_after_move(tally, Step(number, batch, 0), world, swarm, part(stage, TARGETS), part(stage, SCRATCH))
     return 0
 
 
@@ -202,6 +206,18 @@ _IN_ORDER = (
 
 
 def addresses() -> Addresses:
-    """Compile the phases, or load them from the cache."""
-    where: list[Any] = [each.address() for each in _IN_ORDER]
+    """Compile the phases, or load them from the cache.
+
+    Raises
+    ------
+    PluginError : what an installed package counts or moves cannot be compiled
+    """
+    try:
+        where: list[Any] = [each.address() for each in _IN_ORDER]
+    except NumbaError as error:
+        package = package_in(str(error))
+        if package is None:
+            raise
+        problem = f"a kernel of it cannot be compiled: {str(error).strip().splitlines()[0]}"
+        raise PluginError(package, problem, "fix or uninstall it") from error
     return Addresses(*where)

@@ -14,9 +14,6 @@ from shoal.record.statistics import Estimate, estimate
 
 Values = Mapping[str, npt.NDArray[np.float64]]  # of each strategy in each run, (R,); NaN where a run has none
 
-_MORE_IS_BETTER = ("time_on_target", "targets_observed", "fairness", "engaged", "coverage", "coverage_rate", "closest")
-_LESS_IS_BETTER = ("first_detection", "losses", "reacquisition", "messages", "bandwidth", "power")
-
 
 @dataclass(frozen=True)
 class Standing:
@@ -68,11 +65,6 @@ class Comparison:
     def tests(self) -> int:
         """How many comparisons adjusted p is corrected for."""
         return sum(each.adjusted_p is not None for condition in self.conditions for each in condition.standings)
-
-
-def direction_of(metric: str) -> int:
-    """1: more is better, -1: less is better, 0: neither."""
-    return (metric in _MORE_IS_BETTER) - (metric in _LESS_IS_BETTER)
 
 
 def compare(

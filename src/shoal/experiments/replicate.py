@@ -6,7 +6,9 @@ from datetime import UTC, datetime
 from typing import Any
 
 from shoal.core.errors import ShoalError
-from shoal.metrics.summary import METRICS, fleet_fluctuation, fleet_stationary, phi_histogram
+from shoal.metrics.heading_bearing import fleet_stationary, phi_histogram
+from shoal.metrics.summary import METRICS
+from shoal.metrics.velocity_fluctuation import fleet_fluctuation
 from shoal.run.facts import facts_of
 from shoal.run.simulate import chunk_steps
 from shoal.run.simulation import Simulation

@@ -29,6 +29,17 @@ def read_rows(folder: str | Path) -> tuple[list[str], list[Row]]:
         return store.fields, store.rows()
 
 
+def unknown_metrics(folder: str | Path) -> list[str]:
+    """Metrics that a sweep has numbers of, of packages that are not installed; rows leave them out.
+
+    Raises
+    ------
+    RecordError : the folder holds no sweep
+    """
+    with Store(folder, read_only=True) as store:
+        return store.unknown_metrics
+
+
 def varied_rows(results: Any) -> tuple[list[str], list[Row]]:
     """Return the fields that vary and all rows of a sweep: its folder, its rows, or the DataFrame of `load_results`.
 

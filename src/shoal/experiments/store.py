@@ -22,11 +22,12 @@ from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.experiments.cells import Cell
 from shoal.experiments.replicate import Row
 from shoal.experiments.store_rows import (
-    FORMAT,
     IDENTITY,
     SCHEMA,
+    Columns,
     Content,
     Meta,
+    add_columns,
     check_tables,
     make_rows,
     read_meta,
@@ -74,9 +75,11 @@ class Store:
                 self._database = _connect(file, "rw" if self._own else None)
                 check_tables(self._database)
                 self._meta = read_meta(self._database, self._where)
+                self._columns = Columns.read(self._database)
                 if self._own:
                     self._check_identity(self._meta)
                     self.rows()  # before anything is added to it
+                    self._add_columns(self._database)
                     self._database.execute("PRAGMA journal_mode=WAL")
                     self._database.execute("PRAGMA synchronous=NORMAL")
         except BaseException:
@@ -107,6 +110,11 @@ class Store:
         """Of which its numbers are."""
         return int(self._meta.identity["results_version"])
 
+    @property
+    def unknown_metrics(self) -> list[str]:
+        """Metrics that it has numbers of, and that come from a package which is not installed."""
+        return self._columns.unknown
+
     def status(self) -> dict[str, str]:
         """Status of every run that has a row, by run id."""
         with self._told():
@@ -123,12 +131,12 @@ class Store:
         try:
             with database:
                 content = Content.read(database)
-                for stored, timing in make_rows(entries):
+                for stored, timing in make_rows(entries, self._columns):
                     old = database.execute("SELECT checksum FROM runs WHERE run_id = ?", (stored["run_id"],)).fetchone()
                     content = content.less(old["checksum"]) if old else content
                     content = content.plus(stored["checksum"])
                     for table, each in (("runs", stored), ("timing", timing)):
-                        names = ", ".join(each)
+                        names = ", ".join(f'"{name}"' for name in each)
                         values = ", ".join(f":{name}" for name in each)
                         database.execute(f"INSERT OR REPLACE INTO {table} ({names}) VALUES ({values})", each)
                 content.write(database)
@@ -148,10 +156,10 @@ class Store:
             try:
                 stored = [dict(row) for row in self._open.execute("SELECT * FROM runs")]
                 if self._meta.format > 1:
-                    Content.read(self._open).check(stored)
+                    Content.read(self._open).check(stored, self._columns.added)
             finally:
                 self._open.execute("ROLLBACK")
-            rows = [read_row(each, self._meta) for each in stored]
+            rows = [read_row(each, self._meta, self._columns) for each in stored]
         return sorted(rows, key=lambda row: (*(_sortable(row[field]) for field in fields), row["run"], row["run_id"]))
 
     def timing(self) -> dict[str, dict[str, Any]]:
@@ -187,6 +195,13 @@ class Store:
         finally:
             partial.unlink(missing_ok=True)
 
+    def _add_columns(self, database: sqlite3.Connection) -> None:
+        """Make room for metrics that the store is older than."""
+        if self._columns.missing:
+            with database:
+                add_columns(database, self._columns.missing, self._meta.identity)
+            self._columns = Columns.read(database)
+
     def _check_identity(self, meta: Meta) -> None:
         """Refuse to mix what this sweep runs with what another one ran."""
         if meta.identity["results_version"] != (self._identity or {})["results_version"]:
@@ -196,7 +211,7 @@ class Store:
                 f"results version {RESULTS_VERSION}) must not mix with its own",
                 "use another folder; shoal results and shoal plot still read this one",
             )
-        if meta.format < FORMAT:
+        if meta.format < 2:  # no checksums
             raise RecordError(self._where, "was made by an older Shoal", "use another folder")
         differences = [
             difference

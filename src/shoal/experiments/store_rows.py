@@ -1,14 +1,18 @@
 """What a store holds, and how it is known to be what was written.
 
 `meta` has a name and JSON per row: the identity of the sweep, its format, the checksum of both, and `content`: how many
-rows `runs` has and the sum of their checksums, changed in the same transaction as they are. Format 1 had no checksums.
+rows `runs` has and the sum of their checksums, changed in the same transaction as they are. Format 1 had no checksums,
+format 2 the list of metrics in its identity.
+
+A metric is a column of numbers. A store that is resumed with a metric more gains a column, behind `checksum`, where
+rows from before have nothing; one whose package is not installed keeps its column, and new rows have nothing there.
 """
 
 import hashlib
 import json
 import math
 import sqlite3
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -18,15 +22,15 @@ from shoal.experiments.cells import Cell
 from shoal.experiments.replicate import LIST_COLUMNS, Row
 from shoal.metrics.summary import METRICS
 
-FORMAT = 2
-IDENTITY = ("scenario", "fields", "changes", "independent", "results_version", "metrics")
+FORMAT = 3
+IDENTITY = ("scenario", "fields", "changes", "independent", "results_version")
 
 SCHEMA = f"""
 CREATE TABLE meta (name TEXT PRIMARY KEY, value TEXT NOT NULL);
 CREATE TABLE runs (
     run_id TEXT PRIMARY KEY, scenario_hash TEXT NOT NULL, seed NOT NULL, run INTEGER NOT NULL,
     point TEXT NOT NULL, status TEXT NOT NULL, error TEXT NOT NULL,
-    {", ".join(f"{name} REAL" for name in METRICS)},
+    {", ".join(f'"{name}" REAL' for name in METRICS)},
     {", ".join(f"{name} TEXT" for name in LIST_COLUMNS)},
     shoal_version TEXT NOT NULL, results_version INTEGER NOT NULL, checksum TEXT NOT NULL);
 CREATE TABLE timing (run_id TEXT PRIMARY KEY, started TEXT NOT NULL, seconds REAL NOT NULL);
@@ -71,8 +75,8 @@ class Content:
         value = json.dumps([self.rows, f"{self.total:064x}"])
         database.execute("INSERT OR REPLACE INTO meta VALUES ('content', ?)", (value,))
 
-    def check(self, stored: Iterable[dict[str, Any]]) -> None:
-        """Refuse rows that are not those that were written.
+    def check(self, stored: Iterable[dict[str, Any]], added: Collection[str]) -> None:
+        """Refuse rows that are not those that were written; `added` are the columns that some are older than.
 
         Raises
         ------
@@ -80,7 +84,7 @@ class Content:
         """
         found = Content()
         for row in stored:
-            if row["checksum"] != _sum_of(row):
+            if row["checksum"] != _sum_of_row(row, added):
                 raise ValueError(f"run {row['run_id']} is not what was written")
             found = found.plus(row["checksum"])
         if found != self:
@@ -100,9 +104,46 @@ def check_tables(database: sqlite3.Connection) -> None:
         raise ValueError("runs.sqlite has not the tables of a sweep")
 
 
+@dataclass(frozen=True)
+class Columns:
+    """The metrics that a store has a column of, and those of them that some rows are older than."""
+
+    metrics: tuple[str, ...]
+    added: tuple[str, ...]
+
+    @classmethod
+    def read(cls, database: sqlite3.Connection) -> Self:
+        """As the table is."""
+        kinds = {each["name"]: each["type"] for each in database.execute("PRAGMA table_info(runs)")}
+        names = list(kinds)
+        added = names[names.index("checksum") + 1 :] if "checksum" in names else []  # format 1 had none
+        if any(kinds[name] != "REAL" for name in added):
+            raise ValueError(f"runs.sqlite has a column {added[0]!r}, which is no metric")
+        return cls(tuple(name for name, kind in kinds.items() if kind == "REAL"), tuple(added))
+
+    @property
+    def missing(self) -> list[str]:
+        """Metrics that there are, and have no column."""
+        return [name for name in METRICS if name not in self.metrics]
+
+    @property
+    def unknown(self) -> list[str]:
+        """Metrics that have a column, and whose package is not installed."""
+        return [name for name in self.metrics if name not in METRICS]
+
+
+def add_columns(database: sqlite3.Connection, names: Iterable[str], identity: dict[str, Any]) -> None:
+    """Give a store columns of new metrics, which its rows have nothing in."""
+    database.execute("BEGIN IMMEDIATE")
+    for name in names:
+        database.execute(f'ALTER TABLE runs ADD COLUMN "{name}" REAL')
+    write_meta(database, identity)
+
+
 def write_meta(database: sqlite3.Connection, identity: dict[str, Any]) -> None:
     """Write what the sweep runs."""
     values = {name: json.dumps(identity[name]) for name in IDENTITY} | {"format": json.dumps(FORMAT)}
+    database.execute("DELETE FROM meta WHERE name != 'content'")
     database.executemany("INSERT INTO meta VALUES (?, ?)", [*values.items(), ("checksum", _sum_of(values))])
 
 
@@ -136,7 +177,9 @@ def read_meta(database: sqlite3.Connection, where: str) -> Meta:
     return Meta(layout, identity)
 
 
-def make_rows(entries: Iterable[tuple[Cell, int, Row]]) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
+def make_rows(
+    entries: Iterable[tuple[Cell, int, Row]], columns: Columns
+) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
     """Yield what is stored of each finished run: its row of `runs`, and of `timing`."""
     for cell, run, row in entries:
         seed = cell.scenario.seed
@@ -148,17 +191,19 @@ def make_rows(entries: Iterable[tuple[Cell, int, Row]]) -> Iterator[tuple[dict[s
             "point": json.dumps(cell.shown),
             "status": row["status"],
             "error": row["error"].encode("utf-8", "backslashreplace").decode(),
-            **{name: _number(row[name]) for name in METRICS},
+            **{name: _number(row.get(name)) for name in columns.metrics},
             **{name: json.dumps(row[name]) for name in LIST_COLUMNS},
             "shoal_version": VERSION,
             "results_version": RESULTS_VERSION,
         }
         timing = {"run_id": stored["run_id"], "started": row["started"], "seconds": row["seconds"]}
-        yield stored | {"checksum": _sum_of(stored)}, timing
+        yield stored | {"checksum": _sum_of_row(stored, columns.added)}, timing
 
 
-def read_row(stored: dict[str, Any], meta: Meta) -> Row:
-    """A row for people, its point's fields as keys of their own; a metric that its results version had not is None.
+def read_row(stored: dict[str, Any], meta: Meta, columns: Columns) -> Row:
+    """A row for people, its point's fields as keys of their own; a metric that it is older than is None.
+
+    Metrics that this Shoal does not know are left out.
 
     Raises
     ------
@@ -183,7 +228,7 @@ def read_row(stored: dict[str, Any], meta: Meta) -> Row:
         raise ValueError(f"{who}: its point is {point!r}")
     if row["status"] not in ("done", "failed"):
         raise ValueError(f"{who}: status is {row['status']!r}")
-    for name in METRICS:
+    for name in (*columns.metrics, *columns.missing):
         value = row.setdefault(name, None)
         if value is not None and not (isinstance(value, float) and abs(value) < _LARGEST and row["status"] == "done"):
             raise ValueError(f"{who}: {name} is {value!r}")
@@ -191,12 +236,18 @@ def read_row(stored: dict[str, Any], meta: Meta) -> Row:
         row[name] = json.loads(row.get(name) or "null")
         if not isinstance(row[name], list if row["status"] == "done" and name in stored else type(None)):
             raise ValueError(f"{who}: {name} is not a list")
+    row = {name: value for name, value in row.items() if name not in columns.unknown}
     return {**{field: point.get(field) for field in meta.identity["fields"]}, **row}
 
 
 def _number(value: Any) -> float | None:
     """As SQLite gives it back."""
     return None if value is None or math.isnan(value) else float(value)
+
+
+def _sum_of_row(row: dict[str, Any], added: Collection[str]) -> str:
+    """SHA-256 of a row; a column that was added counts only where the row has something, for older ones had it not."""
+    return _sum_of({name: value for name, value in row.items() if value is not None or name not in added})
 
 
 def _sum_of(values: dict[str, Any]) -> str:

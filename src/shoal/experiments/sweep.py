@@ -14,7 +14,7 @@ from shoal.experiments.design import Design, Point
 from shoal.experiments.executors import Done, Executor, Task, in_threads
 from shoal.experiments.replicate import Row, replicate
 from shoal.experiments.store import Store
-from shoal.metrics.summary import METRICS, bounds_of
+from shoal.metrics.summary import bounds_of
 from shoal.record.statistics import all_alike, estimate
 
 FLUSH_SECONDS = 0.5  # rows are written together this often, or this many at a time
@@ -88,7 +88,6 @@ def sweep(
         "changes": changes,
         "independent": independent,
         "results_version": RESULTS_VERSION,
-        "metrics": list(METRICS),
     }
     execute = executor or in_threads()
     with Store(out, identity) as store:

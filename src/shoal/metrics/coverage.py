@@ -3,6 +3,8 @@
 import math
 
 from shoal.compiler.kernel import kernel
+from shoal.metrics.contract import Measurement, Metric, Sum
+from shoal.metrics.shares import share
 
 WINDOW = 1000  # steps
 CELLS = 32  # along each side of the arena
@@ -20,15 +22,16 @@ def reachable(width: float, height: float, margin: float) -> float:
 
 
 @kernel
-def tally_coverage(tally, batch, world, swarm, number):
+def tally_coverage(tally, step, world, swarm, targets, scratch):
     """Mark the cells of a grid that agents are in; count them at a tenth and at the end of each window.
 
     An agent marks the cell that it is in at the start of a step, whatever its sensor's range. tally.seen holds for each
     cell 2 w in window w = 1, 2, ... if an agent was in it at the start of the window, 2 w + 1 if one came later: only
     these count for the rate, so that a swarm at rest has none.
     """
-    window = number // WINDOW + 1
-    into = number % WINDOW
+    batch = step.batch
+    window = step.number // WINDOW + 1
+    into = step.number % WINDOW
     seen = tally.seen
     mark = 2 * window + (1 if into > 0 else 0)
     wide = CELLS / (2.0 * world.half_x)
@@ -52,3 +55,34 @@ def tally_coverage(tally, batch, world, swarm, number):
         else:
             tally.windows[batch] += 1.0
             tally.covered[batch] += covered / seen.shape[1]
+
+
+MEASUREMENT = Measurement(
+    "coverage",
+    sums=(
+        Sum("windows", "1", "windows of 1,000 steps that ended"),
+        Sum("covered", "1", "share of the cells passed through, summed over these"),
+        Sum("sweeps", "1", "windows whose first 100 steps ended"),
+        Sum("swept", "1", "share of the cells newly passed through, summed over these"),
+        Sum("seen", "1", "no sum: when each cell was passed through last", ("run", CELLS * CELLS), whole=True),
+    ),
+    before_move=tally_coverage,
+    metrics=(
+        Metric(
+            "coverage",
+            "1",
+            "share of the arena that agents pass through in 1,000 steps (grid of 32 x 32)",
+            lambda t, f: share(t.covered, t.windows),
+            better="higher",
+            high="reach",
+        ),
+        Metric(
+            "coverage_rate",
+            "m^2/s",
+            "area that agents newly pass through per second, over 100 steps",
+            lambda t, f: share(t.swept, t.sweeps) * f.area / (100 * f.time_step),
+            better="higher",
+        ),
+    ),
+    order=5,
+)

@@ -4,7 +4,8 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.core.agents import Floats
-from shoal.metrics.summary import Facts, or_nan
+from shoal.metrics.contract import Facts
+from shoal.metrics.shares import or_nan
 from shoal.metrics.tally import Tally
 
 
@@ -28,7 +29,7 @@ def loss_lengths(tally: Tally, facts: Facts) -> tuple[Floats, npt.NDArray[np.int
 
     Edges double; the first bin is losses of one step. Empty bins at the end are left out.
     """
-    counts = tally.loss_lengths.sum(axis=0).astype(np.int64)
+    counts = np.nan_to_num(tally.loss_lengths.sum(axis=0)).astype(np.int64)  # NaN: not counted
     used = int(np.flatnonzero(counts)[-1]) + 1 if counts.any() else 0
     edges: Floats = facts.time_step * np.exp2(np.arange(used + 1, dtype=float))
     return edges, counts[:used]

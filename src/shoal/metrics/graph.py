@@ -3,21 +3,23 @@
 import numpy as np
 
 from shoal.compiler.kernel import kernel
+from shoal.metrics.contract import Measurement, Metric, Sum
+from shoal.metrics.shares import share
 from shoal.world.neighbors import linked
 
 EVERY = 500  # steps between two looks at the graph
 
 
 @kernel
-def tally_graph(tally, batch, world, links, alive, part, number):
+def tally_graph(tally, step, world, swarm, targets, scratch):
     """Count the weakly connected components, and the mean clustering of the agents (Watts and Strogatz 1998).
 
     Clustering of i: of the pairs of agents that i hears, the share in which one hears the other; 0 of an agent that
-    hears fewer than two. Agents that are not there are no part of it. `part` is scratch.
+    hears fewer than two. Agents that are not there are no part of it. Known where all agents listen together.
     """
-    if number % EVERY != 0:
+    if world.sequential or step.number % EVERY != 0:
         return
-    agents = world.agents
+    agents, alive, links, part = world.agents, swarm.alive, scratch.links, scratch.leader
     for i in range(agents):
         part[i] = i
     for i in range(agents):
@@ -44,9 +46,9 @@ def tally_graph(tally, batch, world, links, alive, part, number):
                 one, other = ears[a], ears[b]
                 knit += linked(links, one, other) or linked(links, other, one)
         total += 2.0 * knit / (heard * (heard - 1)) if heard > 1 else 0.0
-    tally.graphs[batch] += 1.0
-    tally.components[batch] += components
-    tally.clustering[batch] += total / max(active, 1)
+    tally.graphs[step.batch] += 1.0
+    tally.components[step.batch] += components
+    tally.clustering[step.batch] += total / max(active, 1)
 
 
 @kernel
@@ -57,3 +59,32 @@ def _join(part, one, other):
     while part[other] != other:
         other = part[other]
     part[max(one, other)] = min(one, other)
+
+
+MEASUREMENT = Measurement(
+    "graph",
+    sums=(
+        Sum("graphs", "1", "looks at the network"),
+        Sum("components", "1", "parts that it fell into, summed over these"),
+        Sum("clustering", "1", "mean clustering of the agents, summed over these"),
+    ),
+    linked=tally_graph,
+    metrics=(
+        Metric(
+            "components",
+            "1",
+            "parts that the network falls into (synchronous order)",
+            lambda t, f: share(t.components, t.graphs),
+            low=1.0,
+            high="agents",
+        ),
+        Metric(
+            "clustering",
+            "1",
+            "share of pairs of an agent's neighbors that are linked (synchronous order)",
+            lambda t, f: share(t.clustering, t.graphs),
+            high=1.0,
+        ),
+    ),
+    order=7,
+)

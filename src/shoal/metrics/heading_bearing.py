@@ -6,20 +6,29 @@ from typing import Any
 import numpy as np
 
 from shoal.compiler.kernel import kernel
-from shoal.metrics.tally import BINS
+from shoal.core.agents import Floats
+from shoal.metrics.contract import Facts, Measurement, Metric, Sum
+from shoal.metrics.shares import or_nan, share
 
+BINS = 11  # of phi
 STATIONARY = 0.1  # share of the top speed below which an agent counts as stationary
 CENTERS = np.linspace(-1.0, 1.0, BINS)
 
 
 @kernel
-def tally_heading_bearing(tally, batch, swarm, agents, targets, bearing_x, bearing_y, phi):
+def tally_heading_bearing(tally, step, world, swarm, targets, scratch):
     """Add phi_i = cos(angle between heading and bearing to the nearest target) to the histogram of i's fleet.
 
     Kwa et al., Heterogeneous Swarms, Eq. 8. Positions after the move, targets before theirs. The heading is that of the
     speed-limited velocity before the wall; stationary is judged by the displacement really made, so that an agent which
     presses against the wall is. Stationary agents count as phi = 0, as does an agent exactly on a target.
     """
+    present = False
+    for target in targets:
+        present |= target.present != 0
+    if not present:
+        return
+    agents, bearing_x, bearing_y, phi = world.agents, scratch.a, scratch.b, scratch.c
     _nearest_bearing(swarm, agents, targets, bearing_x, bearing_y)
     for i in range(agents):
         vx = swarm.command_x[i]
@@ -36,8 +45,8 @@ def tally_heading_bearing(tally, batch, swarm, agents, targets, bearing_x, beari
             stops = is_stationary(swarm.vx[i], swarm.vy[i], swarm.max_speed[i])
             stationary += stops & (swarm.alive[i] > 0.0)
         for i in range(begin, end):
-            tally.histogram[batch, fleet, bin_of(phi[i])] += swarm.alive[i] > 0.0
-        tally.stationary[batch, fleet] += stationary
+            tally.histogram[step.batch, fleet, bin_of(phi[i])] += swarm.alive[i] > 0.0
+        tally.stationary[step.batch, fleet] += stationary
         begin = end
 
 
@@ -77,3 +86,49 @@ def _nearest_bearing(swarm, agents, targets, bearing_x, bearing_y):
                 nearer = dx * dx + dy * dy < known
                 bearing_x[i] = dx if nearer else bearing_x[i]
                 bearing_y[i] = dy if nearer else bearing_y[i]
+
+
+def phi_histogram(tally: Any) -> Floats:
+    """Mean agents per step in each bin of phi, by fleet: (F, 11); the bins of all fleets sum to N."""
+    present = tally.present.sum()
+    sums: Floats = tally.histogram.sum(axis=0)
+    return sums / present if present > 0 else np.full(sums.shape, np.nan)
+
+
+def fleet_stationary(tally: Any, facts: Facts) -> Floats:
+    """Stationary share of each fleet, (F,)."""
+    result: Floats = tally.stationary.sum(axis=0) / or_nan(tally.histogram.sum(axis=(0, 2)))
+    return result
+
+
+MEASUREMENT = Measurement(
+    "heading_bearing",
+    sums=(
+        Sum(
+            "histogram",
+            "agents",
+            "of each fleet per bin of phi, over steps with a target there",
+            ("batch", "fleet", BINS),
+            True,
+        ),
+        Sum(
+            "stationary",
+            "agents",
+            "of each fleet slower than a tenth of their top speed, over the same steps",
+            ("batch", "fleet"),
+            True,
+        ),
+    ),
+    after_move=tally_heading_bearing,
+    metrics=(
+        Metric(
+            "stationary",
+            "1",
+            "share of agents slower than a tenth of their top speed while a target is there",
+            lambda t, f: share(t.stationary, t.histogram),
+            label="stationary agents",
+            high=1.0,
+        ),
+    ),
+    order=3,
+)

@@ -1,24 +1,41 @@
 """The metrics of a single moment: Xi and phi of one frame, by the kernels that add them up over a run."""
 
+from typing import NamedTuple
+
 from shoal.compiler.kernel import entry_kernel
+from shoal.core.agents import Floats
+from shoal.metrics.contract import Step
 from shoal.metrics.heading_bearing import tally_heading_bearing
 from shoal.metrics.velocity_fluctuation import tally_velocity_fluctuation
 
 
+class Agents(NamedTuple):
+    """What the two kernels read of a world."""
+
+    agents: int
+
+
+class Room(NamedTuple):
+    """Their working arrays, (N,)."""
+
+    a: Floats
+    b: Floats
+    c: Floats
+
+
 @entry_kernel
-def tally_moment(tally, swarm, targets, active, a, b, c):
+def tally_moment(tally, world, swarm, targets, scratch):
     """Add one moment to a tally of a single batch; phi where a target is there.
 
+    world, scratch : Agents, Room
     swarm : x, y, vx, vy, command_x, command_y, max_speed, alive : (N,); fleet_end : (F,)
     targets : (T,) records of x, y, present
-    active : agents that are there; a, b, c : (N,) scratch
     """
-    agents = swarm.x.size
+    step = Step(0, 0, 0)
     tally.steps[0] += 1.0
-    tally_velocity_fluctuation(tally, 0, swarm, agents, active, a)
+    tally_velocity_fluctuation(tally, step, world, swarm, targets, scratch)
     present = False
     for target in targets:
         present |= target.present != 0
-    if present:
-        tally.present[0] += 1.0
-        tally_heading_bearing(tally, 0, swarm, agents, targets, a, b, c)
+    tally.present[0] += 1.0 if present else 0.0
+    tally_heading_bearing(tally, step, world, swarm, targets, scratch)

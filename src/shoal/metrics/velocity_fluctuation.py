@@ -1,35 +1,81 @@
 """Velocity fluctuation, from which Xi and the response are made."""
 
 import math
+from typing import Any
 
 from shoal.compiler.kernel import kernel
+from shoal.core.agents import Floats
+from shoal.metrics.contract import Facts, Measurement, Metric, Sum
+from shoal.metrics.shares import fleet_agents, mean_agents, mean_max_speed, or_nan, share
 
 
 @kernel
-def tally_velocity_fluctuation(tally, batch, swarm, agents, active, scratch):
+def tally_velocity_fluctuation(tally, step, world, swarm, targets, scratch):
     """Add |u_i| = |v_i - mean v| of every agent, by fleet; v at the start of the step.
 
     Kwa et al., Heterogeneous Swarms, Eq. 5. Eq. 7 as printed sums vectors that cancel to zero; the norm is meant.
-    `active` agents are alive; the others lie still and count for nothing.
+    Agents that are not there lie still and count for nothing.
     """
+    agents, size = world.agents, scratch.a
+    there = 0
     mean_x = 0.0
     mean_y = 0.0
     for i in range(agents):
         mean_x += swarm.vx[i]
         mean_y += swarm.vy[i]
-    mean_x /= max(active, 1)  # all may be lost
-    mean_y /= max(active, 1)
+        there += swarm.alive[i] > 0.0
+    mean_x /= max(there, 1)  # all may be lost
+    mean_y /= max(there, 1)
     for i in range(agents):
         ux = swarm.vx[i] - mean_x
         uy = swarm.vy[i] - mean_y
-        scratch[i] = swarm.alive[i] * math.sqrt(ux * ux + uy * uy)
+        size[i] = swarm.alive[i] * math.sqrt(ux * ux + uy * uy)
     begin = 0
     for fleet in range(swarm.fleet_end.size):
         total = 0.0
         there = 0
         for i in range(begin, swarm.fleet_end[fleet]):
-            total += scratch[i]
+            total += size[i]
             there += swarm.alive[i] > 0.0
-        tally.agent_steps[batch, fleet] += there
+        tally.agent_steps[step.batch, fleet] += there
         begin = swarm.fleet_end[fleet]
-        tally.fluctuation[batch, fleet] += total
+        tally.fluctuation[step.batch, fleet] += total
+
+
+def fleet_fluctuation(tally: Any, facts: Facts) -> Floats:
+    """xi_raw of each fleet [m/s], (F,): fluctuation around the mean velocity of the whole swarm."""
+    result: Floats = tally.fluctuation.sum(axis=0) / or_nan(tally.steps.sum() * fleet_agents(tally))
+    return result
+
+
+MEASUREMENT = Measurement(
+    "velocity_fluctuation",
+    sums=(
+        Sum("fluctuation", "m/s", "|v_i - mean v|, summed over steps and the agents of each fleet", ("batch", "fleet")),
+        Sum("agent_steps", "1", "steps, summed over the agents of each fleet that are there", ("batch", "fleet")),
+    ),
+    before_move=tally_velocity_fluctuation,
+    metrics=(
+        Metric(
+            "xi",
+            "1",
+            "velocity fluctuation: mean of |v_i - mean v| over steps and agents / mean top speed (Eqs. 5-7)",
+            lambda t, f: share(t.fluctuation, t.steps) / mean_agents(t) / mean_max_speed(t, f),
+            label="velocity fluctuation Xi",
+        ),
+        Metric(
+            "xi_raw",
+            "m/s",
+            "velocity fluctuation, not normalized",
+            lambda t, f: share(t.fluctuation, t.steps) / mean_agents(t),
+            label="Xi, not normalized",
+        ),
+        Metric(
+            "response",
+            "unit/step",
+            "mean over steps of the sum over agents of |v_i - mean v|, in arena units per step",
+            lambda t, f: share(t.fluctuation, t.steps) * f.time_step / f.unit,
+        ),
+    ),
+    order=2,
+)

@@ -11,7 +11,7 @@ from typing import IO, Any
 import numpy as np
 import numpy.typing as npt
 
-from shoal.metrics.summary import Facts
+from shoal.metrics.contract import Facts
 from shoal.metrics.tally import Tally, new_tally
 from shoal.record.roster import Roster
 from shoal.record.trajectory import OF_AGENTS, OF_TARGETS
@@ -67,13 +67,14 @@ def _read_chosen(archive: zipfile.ZipFile, name: str, agents: int) -> npt.NDArra
 
 
 def read_tallies(
-    file: Path, facts: Facts, *, targets: int, steps: int, runs: int, complete: bool, checksum: str | None
+    file: Path, facts: Facts, *, targets: int, steps: int, runs: int, checksum: str | None
 ) -> tuple[Tally, ...]:
     """Return the tally of every run; nothing is read before its shape is known to be right.
 
+    A sum that the file is older than is NaN; one of a package that is not installed is left where it is.
+
     Parameters
     ----------
-    complete : refuse a file without some sum; else, of an older results version, that is NaN
     checksum : SHA-256 of the file, if it is known
 
     Raises
@@ -94,19 +95,19 @@ def read_tallies(
         if len(shape) != 1 or not 1 <= shape[0] <= min(steps, _MOST_BATCHES):
             raise ValueError(f"tallies.npz: {shape} batches of {steps} steps")
         empty = new_tally(steps, shape[0], len(facts.fleets), facts.agents, targets)
-        return tuple(_read_tally(archive, names, run, empty, complete) for run in range(runs))
+        return tuple(_read_tally(archive, names, run, empty) for run in range(runs))
 
 
-def _read_tally(archive: zipfile.ZipFile, names: set[str], run: int, empty: Tally, complete: bool) -> Tally:
+def _read_tally(archive: zipfile.ZipFile, names: set[str], run: int, empty: Tally) -> Tally:
     parts = {}
     for name, like in zip(Tally._fields, empty, strict=True):
         file = f"{run}.{name}.npy"
-        if file not in names and not complete:
-            parts[name] = np.where(like > 0, like, np.nan) if like.dtype.kind == "f" else np.zeros_like(like)
+        if file not in names:
+            parts[name] = np.full(like.shape, np.nan)
             continue
         with archive.open(file) as stream:
             parts[name] = _read_like(stream, like, f"tallies.npz: {run}.{name}")
-    tally = Tally(**parts)
+    tally = Tally._make(parts.values())
     if not np.array_equal(tally.batch_steps, empty.batch_steps) or not np.array_equal(tally.steps, empty.batch_steps):
         raise ValueError(f"tallies.npz: run {run} has not the steps of its scenario")
     return tally

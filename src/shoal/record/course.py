@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 from shoal.core.agents import Floats
-from shoal.metrics.summary import METRICS, Facts
+from shoal.metrics.contract import Facts
+from shoal.metrics.summary import METRICS
 from shoal.metrics.tally import Tally, new_tally
 from shoal.record.record import Record
 

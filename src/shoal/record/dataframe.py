@@ -6,7 +6,10 @@ import numpy as np
 
 from shoal.core.errors import MissingExtraError, UnknownNameError
 from shoal.metrics.each_target import each_target
-from shoal.metrics.summary import METRICS, fleet_fluctuation, fleet_power, fleet_stationary
+from shoal.metrics.effort import fleet_power
+from shoal.metrics.heading_bearing import fleet_stationary
+from shoal.metrics.summary import METRICS
+from shoal.metrics.velocity_fluctuation import fleet_fluctuation
 from shoal.record.trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -15,7 +18,6 @@ if TYPE_CHECKING:
     from shoal.record.record import Record
 
 _SHOWN = ("x", "y", "vx", "vy", "on_target", "engaged", "alive", "neighbors")
-_TARGET_UNITS = {"time_on_target": "1", "first_detection": "s", "losses": "1/h", "reacquisition": "s"}
 
 
 def to_pandas(record: "Record", what: str) -> "pandas.DataFrame":
@@ -64,7 +66,7 @@ def _fleets(record: "Record") -> dict[str, Any]:
 
 def _targets(record: "Record") -> dict[str, Any]:
     rows = [
-        (run, target, name, float(value), _TARGET_UNITS[name])
+        (run, target, name, float(value), METRICS[name].unit)
         for run, tally in enumerate(record.tallies)
         for name, values in each_target(tally, record.facts).items()
         for target, value in enumerate(values)

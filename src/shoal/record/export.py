@@ -17,8 +17,9 @@ import numpy.typing as npt
 
 from shoal.core.errors import MissingExtraError, RecordError
 from shoal.core.files import AtomicFolder, atomic_file
-from shoal.metrics.heading_bearing import CENTERS
-from shoal.metrics.summary import METRICS, evaluate, fleet_fluctuation, fleet_stationary, phi_histogram
+from shoal.metrics.heading_bearing import CENTERS, fleet_stationary, phi_histogram
+from shoal.metrics.summary import METRICS, evaluate
+from shoal.metrics.velocity_fluctuation import fleet_fluctuation
 from shoal.record.trajectory import Trajectory
 
 if TYPE_CHECKING:

@@ -14,9 +14,7 @@ import numpy as np
 
 from shoal.core.errors import RecordError, reason_of
 from shoal.core.files import AtomicFolder
-from shoal.core.version import RESULTS_VERSION
-from shoal.metrics.summary import Facts
-from shoal.metrics.tally import Tally
+from shoal.metrics.contract import Facts
 from shoal.record.arrays import check_frames, check_trajectory, read_roster, read_tallies, sum_of_file
 from shoal.record.content import FORMAT, RecordContent, read_content, sum_of_content
 from shoal.record.older import completed, roster_from
@@ -62,7 +60,8 @@ class RecordFolder:
         tallies = {
             f"{run}.{name}": part
             for run, tally in enumerate(record.tallies)
-            for name, part in zip(Tally._fields, tally, strict=True)
+            for name, part in tally._asdict().items()
+            if np.isfinite(part).all()  # NaN where it was not counted
         }
         np.savez(self._whole.partial / "tallies.npz", **tallies)  # type: ignore[arg-type]
         np.savez(self._whole.partial / "roster.npz", **record.roster._asdict())
@@ -124,7 +123,6 @@ def open_record(folder: str | Path) -> Record:
             targets=len(content.scenario.targets),
             steps=content.scenario.steps,
             runs=content.summary.runs,
-            complete=content.provenance.results_version == RESULTS_VERSION,
             checksum=content.checksum_of("tallies.npz"),
         )
         trajectories = KeptTrajectories(folder, content, roster)

@@ -7,9 +7,10 @@ import numpy.typing as npt
 
 from shoal.core.errors import RecordError
 from shoal.core.links import MOST_LINKED, unpacked
-from shoal.metrics.heading_bearing import CENTERS
-from shoal.metrics.moment import tally_moment
-from shoal.metrics.summary import METRICS, Facts, phi_histogram
+from shoal.metrics.contract import Facts
+from shoal.metrics.heading_bearing import CENTERS, phi_histogram
+from shoal.metrics.moment import Agents, Room, tally_moment
+from shoal.metrics.summary import METRICS
 from shoal.metrics.tally import new_tally
 from shoal.record.trajectory import Trajectory
 
@@ -68,8 +69,8 @@ def moment_of(frames: Trajectory, at: int, facts: Facts) -> Moment:
     targets["x"], targets["y"] = frames.target_x[at], frames.target_y[at]
     targets["present"] = frames.target_present[at]
     tally = new_tally(1, 1, len(facts.fleets), facts.agents, targets.size)
-    scratch = (np.empty(facts.agents) for _ in range(3))
-    _tally_moment(tally, swarm, targets, int(swarm.alive.sum()), *scratch)
+    scratch = Room(*(np.empty(facts.agents) for _ in range(3)))
+    _tally_moment(tally, Agents(facts.agents), swarm, targets, scratch)
     return Moment(METRICS["xi"].formula(tally, facts), phi_histogram(tally))
 
 

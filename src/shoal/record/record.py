@@ -11,24 +11,16 @@ import numpy.typing as npt
 from shoal.core.errors import UnknownNameError, no_attribute
 from shoal.core.sheet import Sheet
 from shoal.core.text import plain
+from shoal.metrics.contract import Facts, Metric
 from shoal.metrics.coverage import reachable
 from shoal.metrics.each_target import each_target, loss_lengths
+from shoal.metrics.effort import fleet_power
+from shoal.metrics.heading_bearing import fleet_stationary, phi_histogram
 from shoal.metrics.robustness import Robustness, robustness
-from shoal.metrics.summary import (
-    METRICS,
-    Bounds,
-    Facts,
-    Metric,
-    batch_values,
-    bounds_of,
-    evaluate,
-    fleet_fluctuation,
-    fleet_power,
-    fleet_stationary,
-    mean_max_speed,
-    phi_histogram,
-)
+from shoal.metrics.shares import mean_max_speed
+from shoal.metrics.summary import METRICS, Bounds, batch_values, bounds_of, evaluate
 from shoal.metrics.tally import Tally
+from shoal.metrics.velocity_fluctuation import fleet_fluctuation
 from shoal.record.roster import Roster
 from shoal.record.statistics import FEWEST, Estimate, all_alike, estimate
 from shoal.record.trajectory import Trajectory
@@ -41,7 +33,6 @@ if TYPE_CHECKING:
     import xarray
 
 _OF_FLEETS = ("xi", "xi_raw", "stationary", "speed", "power")
-_OF_SEVERAL_TARGETS = ("targets_observed", "fairness")
 
 
 @dataclass(frozen=True, repr=False)
@@ -249,7 +240,7 @@ class Record:
     def _repr_html_(self) -> str:
         """The table of the run for a notebook: every metric with its interval."""
         several = len(self.scenario.targets) > 1
-        known = {name: self.estimate(name) for name in METRICS if several or name not in _OF_SEVERAL_TARGETS}
+        known = {name: self.estimate(name) for name, each in METRICS.items() if several or not each.several_targets}
         return Sheet(
             head=self._head(),
             titles=("metric", "mean", "95 % interval", "unit", ""),

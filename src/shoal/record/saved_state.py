@@ -26,8 +26,12 @@ def write_state(file: str | Path, identity: str, arrays: Arrays) -> None:
         np.savez(stream, shoal=np.array(identity), sha256=np.array(checksum), **dict(arrays))  # type: ignore[arg-type]
 
 
-def read_state(file: str | Path, identity: str, like: Arrays) -> dict[str, npt.NDArray[Any]]:
-    """Return the arrays of a file; they have the shapes and types of those of `like`.
+def read_state(
+    file: str | Path, identity: str, like: Arrays, optional: str = "tally."
+) -> tuple[dict[str, npt.NDArray[Any]], list[str]]:
+    """Return the arrays of a file, which have the shapes and types of those of `like`, and names that only one has.
+
+    optional : with what those names begin that a file may lack, or have more of; it may hold no others
 
     Raises
     ------
@@ -38,14 +42,18 @@ def read_state(file: str | Path, identity: str, like: Arrays) -> dict[str, npt.N
             owner = str(state["shoal"])
             if owner != identity:
                 raise RecordError(str(file), f"was saved by {owner}, this is {identity}", "use the same scenario")
-            saved = {}
+            held = {name for name in state.files if name not in ("shoal", "sha256")}
+            lone = [name for name in sorted(held ^ like.keys()) if name.startswith(optional)]
+            others = [name for name in sorted(held - like.keys()) if not name.startswith(optional)]
+            if others:
+                raise ValueError(f"it has {others[0]}, which is no part of it")
+            saved = {name: state[name] for name in sorted(held | (like.keys() - set(lone)))}
             for name, mine in like.items():
-                saved[name] = state[name]
-                if (saved[name].shape, saved[name].dtype) != (mine.shape, mine.dtype):
+                if name in saved and (saved[name].shape, saved[name].dtype) != (mine.shape, mine.dtype):
                     raise ValueError(f"{name} has another shape or type")
             if str(state["sha256"]) != _sum_of(identity, saved):
                 raise ValueError("it is not what was written")
-            return saved
+            return {name: each for name, each in saved.items() if name in like}, lone
     except RecordError:
         raise
     except Exception as error:  # whatever a damaged file does to those who read it

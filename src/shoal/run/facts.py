@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from shoal.core.messages import REPORT_BYTES
-from shoal.metrics.summary import Facts
+from shoal.metrics.contract import Facts
 from shoal.record.roster import Roster
 from shoal.scenario.crew import Crew, crew_of
 from shoal.scenario.schema import Scenario

@@ -16,7 +16,7 @@ from shoal.core.version import RESULTS_VERSION
 from shoal.engine.phases import addresses
 from shoal.engine.rollout import look, set_out
 from shoal.engine.stage import Frames, Run, Stage, new_frames, new_scratch
-from shoal.metrics.tally import new_tally
+from shoal.metrics.tally import never_counted, new_tally
 from shoal.record.saved_state import read_state, write_state
 from shoal.record.trajectory import Trajectory
 from shoal.run.build import build_radio, build_swarm, build_targets, build_world, losses_of, open_tracks
@@ -49,7 +49,7 @@ class Simulation:
     roster : what each agent was given: fleet, top speed, sensor, k, strategy, when it joins
     minds : read-only records of what agents remember, in the words of their strategy
     moment : all of the state, read-only; `edit` opens it for changes
-    notes : what was assumed or dropped in reading recorded tracks
+    notes : what was assumed or dropped in reading recorded tracks or a saved state
 
     Raises
     ------
@@ -174,10 +174,11 @@ class Simulation:
         ------
         RecordError : no saved state, a damaged one, or one of something else
         """
-        saved = read_state(file, self._identity(), self.state())  # read whole before anything is overwritten
+        saved, lone = read_state(file, self._identity(), self.state())  # read whole before anything is overwritten
         for name, array in arrays_of(self._state):
-            array[...] = saved[name]
+            array[...] = saved[name] if name in saved else never_counted(array, name.removeprefix("tally."))
         self.number = int(saved["number"])
+        self.notes += [_note_of(name, name in self.state()) for name in lone]
         self._settle()
 
     @property
@@ -234,6 +235,14 @@ class Simulation:
 
     def _new_frames(self, count: int) -> Frames:
         return new_frames(count, self.scenario.agents, self._targets.size, self._swarm.memory.shape[1])
+
+
+def _note_of(name: str, known: bool) -> str:
+    """What is said of a sum that only the saved state has, or only this Shoal."""
+    called = name.removeprefix("tally.")
+    if known:
+        return f"the saved state has no sum {called!r}, so that the metrics made of it are unknown"
+    return f"the saved state has a sum {called!r}, which no installed package knows: it is dropped"
 
 
 def count_frames(first: int, last: int, every: int | None, tail: int) -> int:

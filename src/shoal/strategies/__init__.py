@@ -1,5 +1,6 @@
 """What an agent decides. Importing this package fills the catalogue with the built-in strategies: its files."""
 
+from shoal.compiler.kernel import kernel as kernel
 from shoal.core.declared import import_marked
 from shoal.strategies.contract import CATALOGUE as CATALOGUE
 from shoal.strategies.contract import Strategy as Strategy

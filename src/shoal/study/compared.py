@@ -9,7 +9,7 @@ from shoal.core.errors import MissingExtraError, ScenarioError, UnknownNameError
 from shoal.core.keywords import lists_keywords, split_keywords
 from shoal.core.sheet import Sheet
 from shoal.experiments.cells import make_cells
-from shoal.experiments.comparison import Comparison, Condition, Standing, direction_of
+from shoal.experiments.comparison import Comparison, Condition, Standing
 from shoal.experiments.comparison import compare as compare_values
 from shoal.experiments.comparison_words import (
     difference_text,
@@ -236,7 +236,7 @@ def compared(
     first = make_cells(design, dict(changes))[0].scenario
     with store_folder(options.out) as folder:
         found = run_comparison(design, everybody, folder, changes=dict(changes), executor=executor, report=report)
-    direction = direction_of(metric)
+    direction = METRICS[metric].direction
     table = {_told(point): (point, values_of(strategies, metric)) for point, strategies in found}
     informed = {each.name for each in everybody if each.informed}
     return Compared(

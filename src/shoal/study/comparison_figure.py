@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 def comparison_figure(comparison: Comparison, metric: str) -> "Figure":
     """Curves if one number varies, else bars: a panel per condition."""
-    words, unit = metric.replace("_", " "), METRICS[metric].unit
+    words, unit = METRICS[metric].words, METRICS[metric].unit
     label = words if unit == "1" else f"{words} [{unit}]"
     points = [each.point for each in comparison.conditions]
     if len(points) > 1 and all(len(point) == 1 and _is_number(*point.values()) for point in points):

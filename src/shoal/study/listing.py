@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar, o
 
 from shoal.core.errors import MissingExtraError, UnknownNameError
 from shoal.core.sheet import Sheet
-from shoal.experiments.comparison import direction_of
 from shoal.metrics.summary import METRICS
 from shoal.scenario.load import load, presets
 from shoal.scenario.strategy_choice import params_model
@@ -122,7 +121,7 @@ class Listing(Sequence[T], Generic[T]):
 def list_metrics() -> Listing[MetricInfo]:
     """Every metric with its unit, whether more or less is better, and one sentence."""
     words = {1: "more is better", -1: "less is better", 0: "neither"}
-    found = [MetricInfo(name, each.unit, words[direction_of(name)], each.sentence) for name, each in METRICS.items()]
+    found = [MetricInfo(each.name, each.unit, words[each.direction], each.sentence) for each in METRICS.values()]
     return Listing("metric", found, MetricInfo._fields)
 
 

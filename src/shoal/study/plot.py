@@ -227,7 +227,7 @@ def curves(
         raise ScenarioError(
             "results", "hold no run that ended well", "see the column error, fix the cause and run them again"
         )
-    labels = field_words(x), y.replace("_", " "), METRICS[y].unit
+    labels = field_words(x), METRICS[y].words, METRICS[y].unit
     if axes is None:
         return sweep_page(list(made.values()), *labels)
     return _drawn(axes, (_CHART, _RIGHT, _TOP), lambda into: draw_sweep(into, list(made.values()), *labels))

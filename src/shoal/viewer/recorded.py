@@ -11,22 +11,16 @@ from shoal.record.record import Record
 from shoal.viewer.frame import RECENT, Gauges, pack
 from shoal.viewer.scene import scene_of
 
-_LABELS = {
-    "time_on_target": "time on target",
-    "xi": "velocity fluctuation Xi",
-    "engaged": "engaged agents",
-    "stationary": "stationary agents",
-    "response": "response",
-    "first_detection": "first detection",
-    "losses": "target lost",
-    "reacquisition": "time to find it again",
-    "coverage": "coverage",
-}
+_SHOWN = (  # besides those of installed packages
+    "time_on_target", "xi", "engaged", "stationary", "response",
+    "first_detection", "losses", "reacquisition", "coverage",
+)  # fmt: skip
 
 
 def recorded_scene(record: Record, run: int) -> dict[str, Any]:
     """The scene of a record, with its metrics, their intervals, and their course over the batches of one run."""
-    estimates = {name: record.estimate(name) for name in _LABELS}
+    shown = [name for name, each in record.metrics.items() if name in _SHOWN or each.package]
+    estimates = {name: record.estimate(name) for name in shown}
     kept = record.trajectories[run]
     starts = np.concatenate([[0], np.cumsum(record.tallies[run].batch_steps)[:-1]])
     return {
@@ -34,7 +28,7 @@ def recorded_scene(record: Record, run: int) -> dict[str, Any]:
         "metrics": [
             {
                 "name": name,
-                "label": _LABELS[name],
+                "label": record.metrics[name].words,
                 "unit": record.metrics[name].unit,
                 "mean": value.mean,
                 "low": value.ci95[0] if value.ci95 else None,

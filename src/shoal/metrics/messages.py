@@ -1,0 +1,39 @@
+"""Messages: how many reports agents receive, and of how many bytes."""
+
+from shoal.compiler.kernel import kernel
+from shoal.metrics.contract import Measurement, Metric, Sum
+from shoal.metrics.shares import share
+
+
+@kernel
+def tally_messages(tally, step, world, swarm, targets, scratch):
+    """Count the reports that the block of agents which just listened heard."""
+    links = scratch.links
+    reports = 0
+    for i in range(min(links.heard.size, world.agents - step.first)):
+        reports += links.heard[i] if swarm.alive[step.first + i] > 0.0 else 0
+    tally.heard[step.batch] += reports
+
+
+MEASUREMENT = Measurement(
+    "messages",
+    sums=(Sum("heard", "reports", "received"),),
+    linked=tally_messages,
+    metrics=(
+        Metric(
+            "messages",
+            "1/s",
+            "reports that an agent receives per second",
+            lambda t, f: share(t.heard, t.agent_steps) / f.time_step,
+            better="lower",
+        ),
+        Metric(
+            "bandwidth",
+            "B/s",
+            "bytes of reports that an agent receives per second",
+            lambda t, f: share(t.heard, t.agent_steps) / f.time_step * f.report_bytes,
+            better="lower",
+        ),
+    ),
+    order=8,
+)
