@@ -15,7 +15,7 @@ import numpy as np
 from scipy.interpolate import make_smoothing_spline
 
 from shoal.paper import plan
-from shoal.paper.curves import Curve, peak, peak_difference
+from shoal.paper.curves import RunCurve, peak, peak_difference
 from shoal.paper.published import NEIGHBORS, PUBLISHED
 
 DEVIATION, SHARED = 0.0029, 0.3
@@ -54,13 +54,13 @@ def true_peak(shape: str) -> float:
     return float(fine[SHAPES[shape](fine).argmax()])
 
 
-def made_up(shape: str, places: str, seeds: int, curves: int, chance: int = 11) -> list[Curve]:
+def made_up(shape: str, places: str, seeds: int, curves: int, chance: int = 11) -> list[RunCurve]:
     """Noisy curves of a shape; those of two shapes share their noise if their `chance` is the same."""
     x = np.array(PLACES[places], float)
     rng = np.random.default_rng(chance)
     shared, own = rng.normal(size=(curves, seeds, 1)), rng.normal(size=(curves, seeds, x.size))
     noise = DEVIATION * (SHARED**0.5 * shared + (1 - SHARED) ** 0.5 * own)
-    return [Curve(x, runs) for runs in SHAPES[shape](x) * (1 + noise)]
+    return [RunCurve(x, runs) for runs in SHAPES[shape](x) * (1 + noise)]
 
 
 def place_coverage(shape: str, places: str, seeds: int, curves: int, draws: int) -> Coverage:

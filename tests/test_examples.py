@@ -44,7 +44,7 @@ def test_the_example_of_named_sums_runs(name):
     assert frames.on_target.any()
     heading = np.array([frames.vx, frames.vy]) / np.maximum(np.hypot(frames.vx, frames.vy), 1e-12)
     order = np.hypot(*heading.mean(axis=2))[200:].mean()  # 1: all head alike; 50 at random: 0.13
-    assert order > 0.4 or name == "six_nearest"  # which is no flock
+    assert order > 0.4 or name == "six_nearest"  # which is not a flock
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ ELSEWHERE = ("http://", "https://", "mailto:")
 
 
 def prose(page):
-    """A page without its code, where brackets are no links."""
+    """A page without its code, where brackets are not links."""
     fenced = re.sub(r"^```.*?^```", "", page.read_text(), flags=re.M | re.S)
     return re.sub(r"`[^`\n]*`", "", fenced)
 

@@ -1,5 +1,7 @@
 """import shoal gives what it says, whatever was imported before."""
 
+import inspect
+import re
 import subprocess
 import sys
 
@@ -76,6 +78,24 @@ class TestDiscovery:
         assert "snapshot" in dir(shoal.plot)
         with pytest.raises(AttributeError, match="did you mean 'snapshot'"):
             shoal.plot.snapshto  # noqa: B018
+
+
+def public_functions():
+    """Every function of the package, of its figures, and every method of its classes, by its name."""
+    for owner in (shoal, shoal.plot):
+        for name in owner.__all__:
+            value = getattr(owner, name)
+            if inspect.isfunction(value):
+                yield name, value
+            elif inspect.isclass(value):
+                methods = {each: getattr(value, each) for each in vars(value) if not each.startswith("_")}
+                yield from ((f"{name}.{each}", method) for each, method in methods.items() if callable(method))
+
+
+@pytest.mark.parametrize(("name", "function"), sorted(public_functions()), ids=lambda value: str(value)[:40])
+def test_a_public_function_names_each_of_its_arguments_in_its_docstring(name, function):
+    arguments = [each for each in inspect.signature(function).parameters if each != "self"]
+    assert [each for each in arguments if not re.search(rf"\b{each}\b", inspect.getdoc(function) or "")] == []
 
 
 @pytest.mark.slow

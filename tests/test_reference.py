@@ -2,8 +2,10 @@
 
 import ast
 import inspect
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -30,5 +32,32 @@ def test_every_equation_of_the_paper_is_named_once(what):
 
 
 def test_both_algorithms_are_methods_of_that_name():
-    assert "Adaptive repulsion" in inspect.getdoc(reference.Paper.algorithm_1)
-    assert "k-nearest network PSO with adaptive repulsion" in inspect.getdoc(reference.Paper.algorithm_2)
+    assert "Algorithm 1, adaptive repulsion" in inspect.getdoc(reference.Paper.algorithm_1)
+    assert "Algorithm 2, dynamic k-nearest network PSO with adaptive repulsion" in inspect.getdoc(
+        reference.Paper.algorithm_2
+    )
+
+
+ROOT = Path(__file__).resolve().parents[1]
+(ROWS,) = re.findall(r"\| paper \| to read.*?\n\n", (ROOT / "README.md").read_text(encoding="utf-8"), flags=re.DOTALL)
+PLACES = [
+    (label, name, link or "src/shoal/reference.py")
+    for label, read, engine in re.findall(r"^\| (\w+\.? \d): [^|]+\| ([^|]+) \| ([^|]+) \|$", ROWS, flags=re.MULTILINE)
+    for cell in (read, engine)
+    for name, link in re.findall(r"`(\w+)`(?: in \[[^\]]*\]\(([^)]*)\))?", cell)
+]
+
+
+def test_readme_says_where_everything_of_the_paper_is():
+    assert {label for label, _, _ in PLACES} == {
+        "Algorithm 1",
+        "Algorithm 2",
+        *(f"Eq. {n}" for n in (1, 2, 3, 4, 5, 7, 8)),
+    }
+
+
+@pytest.mark.parametrize(("label", "name", "file"), PLACES)
+def test_what_readme_names_is_there_and_says_so_itself(label, name, file):
+    text = (ROOT / file).read_text(encoding="utf-8")
+    functions = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef) and node.name == name]
+    assert [label in ast.get_source_segment(text, function) for function in functions] == [True]

@@ -18,7 +18,7 @@ class Boids(NamedTuple):
 
 
 def influence(me, other, params):
-    """What one neighbor adds to each sum: a push, its velocity, and the way to it."""
+    """What one neighbor adds to each sum: a push, its velocity, and the displacement to it."""
     dx, dy = me.x - other.x, me.y - other.y
     distance = math.sqrt(dx * dx + dy * dy) + 1e-9
     push = max(0.0, params.spacing / distance - 1.0) / distance

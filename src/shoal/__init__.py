@@ -116,7 +116,7 @@ def __dir__() -> list[str]:
     return __all__
 
 
-if not TYPE_CHECKING:  # type checkers shall go on to know what there is
+if not TYPE_CHECKING:  # hidden from type checkers, which know the names
 
     def __getattr__(name: str) -> Any:
         """Import on first use: `import shoal` and `shoal --help` load neither compiler nor plots."""

@@ -52,7 +52,7 @@ class Paper:
     clamp_y: float = 8.5
 
     def algorithm_2(self, swarm: Swarm, target: Array, r: Array) -> tuple[Swarm, Seen]:
-        """Dynamic k-nearest network PSO with adaptive repulsion: one step. r: draws from U(0, 1), (N,)."""
+        """Algorithm 2, dynamic k-nearest network PSO with adaptive repulsion: a step. r: draws from U(0, 1), (N,)."""
         x, v, a = (np.array(each, float) for each in swarm)
         limited, near, best = np.empty_like(v), np.empty((len(x), self.k), int), np.empty(len(x), int)
         f = self.on_target(x, target)
@@ -68,7 +68,7 @@ class Paper:
         return Swarm(x, v, a), Seen(f, near, best, u, self.phi(x, limited, v, target))
 
     def algorithm_1(self, a: Array, tracking: Array) -> Array:
-        """Adaptive repulsion: a_R falls while tracking and rises while exploring; the test comes before the step."""
+        """Algorithm 1, adaptive repulsion: a_R falls while tracking and rises while exploring; tested, then stepped."""
         fallen = np.where(a > self.a_min, a - self.a_down, a)
         return np.where(tracking, fallen, np.where(a < self.a_max, a + self.a_up, a))
 
@@ -77,7 +77,7 @@ class Paper:
         return ((x - target) ** 2).sum(axis=1) <= self.rho**2
 
     def turns(self, agents: int) -> Any:
-        """Who reads the swarm and moves together: all at once, on the state at t."""
+        """Agents that read the swarm and move together: all at once, on the state at t."""
         return [np.arange(agents)]
 
     def neighbors(self, x: Array, i: Array) -> Array:
@@ -103,13 +103,13 @@ class Paper:
         return v * np.minimum(1.0, max_speed / np.maximum(length(v), 1e-99))[:, None]
 
     def moved(self, x: Array, v: Array) -> tuple[Array, Array]:
-        """Eq. 3, and walls: where one acts v is the displacement really made; being put inside is no motion."""
+        """Eq. 3, and walls: where one acts v is the displacement really made; being put inside is not motion."""
         half = np.array([self.clamp_x, self.clamp_y])
         reached = np.clip(x + v, -half, half)
         return reached, np.where(reached != x + v, reached - np.clip(x, -half, half), v)
 
     def phi(self, x: Array, v: Array, made: Array, target: Array) -> Array:
-        """Eq. 8: cosine between heading and bearing; 0 of who makes < 10 % of its top speed or is on the very spot."""
+        """Eq. 8: cosine between heading and bearing; 0 below 10 % of the top speed or exactly on the target."""
         bearing = target - x
         counts = (length(made) >= 0.1 * self.max_speed) & ((norm := length(v) * length(bearing)) > 0.0)
         return np.where(counts, np.clip((v * bearing).sum(axis=1) / np.where(counts, norm, 1.0), -1.0, 1.0), 0.0)

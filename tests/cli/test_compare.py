@@ -94,10 +94,10 @@ class TestStore:
         def interrupted(*arguments, **options):
             raise KeyboardInterrupt
 
-        monkeypatch.setattr("shoal.experiments.compare.sweep", interrupted)
+        monkeypatch.setattr("shoal.experiments.run_comparison.sweep", interrupted)
         code, out, err = shoal(capsys, "compare", "knn-pso", *SHORT, "--out", "s")
         assert (code, out) == (130, "")
-        assert "the same command goes on from there" in err
+        assert "the same command continues from there" in err
 
     def test_failed_runs_are_told_and_left_out(self, capsys):
         Path("mine.py").write_text(MINE.format(velocity="0.0 / max(0.0, 19.85 - me.time), 0.0"))  # at the last step
@@ -153,7 +153,7 @@ BAD = [
     (["knn-pso", "--suite", "arena", "--vary", "fast=0,15"], "--vary: does not go with --suite"),
     (["knn-pso", "--suite", "arena", "--markdown", "broken.py"], "has no place for the leaderboard"),
     (["knn-pso", "--markdown", "page.md"], "needs --suite"),
-    (["knn-pso", "--metric", "tot"], "is no metric"),
+    (["knn-pso", "--metric", "tot"], "is not a metric"),
     (["knn-pso", "--baseline", "levy-walk"], "is not compared"),
     (["knn-pso", "--scenario", "ocean2020"], "did you mean 'oceans2020'"),
     (["knn-pso", "--vary", "strategy.delta=0.1,0.2"], "strategies are what is compared"),

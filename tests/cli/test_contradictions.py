@@ -33,7 +33,7 @@ class TestContradictions:
             (["sweep", "--vary", "steps=5", "--steps", "7"], "--steps and --vary steps: set steps twice"),
             (["sweep", "--vary", "fast=5", "--vary", "fleets.0.count=7"], "set fleets.0.count twice"),
             (["sweep", "--scheduler", "tcp://x:1"], "add --executor dask"),
-            (["sweep", "--until-ci", "nan"], "'nan' is no number"),
+            (["sweep", "--until-ci", "nan"], "'nan' is not a number"),
         ],
     )
     def test_are_refused_with_both_names(self, command, told, capsys):

@@ -58,7 +58,7 @@ BAD = [
     (["film", "oceans2020"], "--out"),
     (["film", "nope", "--out", "f.mp4"], "no preset and no file"),
     (["film", "oceans2020", "--out", "f.avi"], "does not end in .mp4, .gif or .png"),
-    (["film", "oceans2020", "--out", "f.mp4", "--size", "big"], "--size big: is no size"),
+    (["film", "oceans2020", "--out", "f.mp4", "--size", "big"], "--size big: is not a size"),
     (["film", "oceans2020", "--out", "f.mp4", "--size", "10x10"], "has a side of 10 pixels"),
     (["film", "oceans2020", "--out", "f.mp4", "--fps", "500"], "choose 1 to 60 frames"),
     (["film", "oceans2020", "--out", "f.mp4", "--steps", "0"], "--steps: is 0"),
@@ -67,7 +67,7 @@ BAD = [
     (["film", "oceans2020", "--out", "f.mp4", "--step", "9"], "--step: shows one step"),
     (["film", "oceans2020", "--out", "f.mp4", "--start", "99990", "--steps", "20"], "are more than the 100000"),
     (["film", "oceans2020", "--out", "f.mp4", "--sensors", "--steps", "2"], "sensor discs: have radius 0"),
-    (["film", "full", "--out", "f.mp4"], "is no record"),
+    (["film", "full", "--out", "f.mp4"], "is not a record"),
     (["film", "full", "--out", "f.mp4", "--seed", "3"], "--seed: changes a scenario"),
 ]
 

@@ -53,7 +53,7 @@ def test_overwrites_nothing_and_leaves_nothing_half_written(capsys, there):
 @pytest.mark.parametrize("name", ["Drift", "2nd", "a b", "a--b", "../up", "class", "drift-", "naïve", ""])
 def test_a_name_must_be_one(capsys, name):
     assert run_command(["new-strategy", name]) == 2
-    assert "is no name of a strategy" in capsys.readouterr().err
+    assert "is not a strategy name" in capsys.readouterr().err
     assert not list(Path().iterdir())
 
 

@@ -50,7 +50,7 @@ class TestReplay:
         ("source", "options", "words"),
         [
             ("nothere", [], "no preset and no file"),
-            (".", [], "is no record"),
+            (".", [], "is not a record"),
             ("oceans2020", ["--frames", 0], "ask for 1 or more"),
             ("oceans2020", ["--part", "middle"], "middle"),
         ],

@@ -107,10 +107,10 @@ BAD = [
     (["run", "oceans2020", "-k", "x"], "integer"),
     (["run", "oceans2020", "-k", "3.5"], "integer"),
     (["run", "oceans2020", "--target-speed=-3"], "targets.0.speed: -3"),
-    (["run", "oceans2020", "--target-speed", "fast"], "is no quantity in m/s"),
+    (["run", "oceans2020", "--target-speed", "fast"], "is not a quantity in m/s"),
     (["run", "oceans2020", "--set", "network.neighbours=3"], "did you mean 'neighbors'"),
     (["run", "oceans2020", "--set", "netwerk.neighbors=3"], "did you mean 'network'"),
-    (["run", "oceans2020", "--set", "nothing"], "is no assignment"),
+    (["run", "oceans2020", "--set", "nothing"], "is not an assignment"),
     (["run", "oceans2020", "--fast", "60"], "from 0 to 50"),
     (["run", "aamas2020", "--fast", "5"], "one make of agents only"),
     (["run", "oceans2020", "--agents", "1"], "2 or more"),
@@ -128,12 +128,12 @@ BAD = [
     (["run", "oceans2020", "--target-track", "us.csv"], "--set targets.0.day_first=true"),
     (["run", "oceans2020", "--target-track", "us.csv", "--set", "targets.0.day_first=maybe"], "day_first"),
     (["run", "oceans2020", "--target-track", "us.csv", "--set", "targets.0.max_speed=fast"], "max_speed"),
-    (["run", "oceans2020", "--target-track", "b\udcfcrg.csv"], "b\\udcfcrg.csv: is no text in the encoding"),
+    (["run", "oceans2020", "--target-track", "b\udcfcrg.csv"], "b\\udcfcrg.csv: is not text in the encoding"),
     (["run", "oceans2020", "--steps", "10", "--out", "/proc/none/r"], "cannot be written"),
     (["run", "oceans2020", "--steps", "10", "--out", "full"], "exists already"),
     (["run", "oceans2020", "--frobnicate"], "--frobnicate"),
     (["run"], "SCENARIO"),
-    (["show", "full"], "is no record"),
+    (["show", "full"], "is not a record"),
     (["check", "bad.toml"], "bad.toml:2 stepz: unknown field"),
     (["scenario", "nope"], "no preset"),
     (["sweep", "oceans2020", "--vary", "neighbors=10:60:10", "--out", "s"], "can hear at most 49"),
@@ -208,7 +208,7 @@ class TestSweep:
         assert shoal(capsys, "results", "s", "--csv")[1] == Path("s/results.csv").read_text()
         assert shoal(capsys, "plot", "s")[0] == 0
         assert Path("s/plot.png").exists()
-        assert "is no metric" in shoal(capsys, "plot", "s", "--y", "fun")[2]
+        assert "is not a metric" in shoal(capsys, "plot", "s", "--y", "fun")[2]
 
 
 TRACK_OPTIONS = [

@@ -56,7 +56,7 @@ def test_sweep_keeps_what_is_done(tmp_path, number):
         "sweep", "oceans2020", "--vary", "neighbors=5:44:1", "--steps", "20000", "--out", "s",
     )  # fmt: skip
     assert code == SIGNALS[number], said
-    assert "the same command goes on from there" in said
+    assert "the same command continues from there" in said
     assert [each.name for each in (tmp_path / "s").iterdir()] == ["runs.sqlite"]
     assert {row["status"] for row in read_rows(tmp_path / "s")[1]} <= {"done"}
 

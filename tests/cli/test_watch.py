@@ -148,7 +148,7 @@ class TestBadInput:
         assert "plays as it is" in refused(capsys, "watch", tmp_path / "r", "-k", 4)
 
     def test_a_folder_that_is_no_record(self, capsys, tmp_path):
-        assert "is no record" in refused(capsys, "watch", tmp_path)
+        assert "is not a record" in refused(capsys, "watch", tmp_path)
 
     def test_recording_is_of_one_run(self, capsys, tmp_path):
         told = refused(capsys, "watch", "oceans2020", "--against", "neighbors=5", "--out", tmp_path / "r")

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from shoal.core.errors import RecordError
-from shoal.core.files import OwnFolder, WholeFolder, check_file, check_folder, whole_file, write_whole
+from shoal.core.files import AtomicFolder, OwnFolder, atomic_file, check_file, check_folder, write_atomic
 
 
 def left_in(folder):
@@ -31,14 +31,14 @@ class TestWriteWhole:
     def test_it_replaces_a_file_of_its_name(self, tmp_path):
         file = tmp_path / "run.html"
         file.write_text("old")
-        write_whole(file, b"new")
+        write_atomic(file, b"new")
         assert file.read_text() == "new"
         assert list(tmp_path.iterdir()) == [file]
 
     def test_behind_a_link_too(self, tmp_path):
         (tmp_path / "file").write_text("old")
         (tmp_path / "link").symlink_to("file")
-        write_whole(tmp_path / "link", b"new")
+        write_atomic(tmp_path / "link", b"new")
         assert (tmp_path / "link").is_symlink()
         assert (tmp_path / "file").read_text() == "new"
 
@@ -48,7 +48,7 @@ class TestWriteWhole:
         file.write_text("old")
 
         def interrupted():
-            with whole_file(file) as partial:
+            with atomic_file(file) as partial:
                 partial.write_text("half")
                 raise end
 
@@ -59,7 +59,7 @@ class TestWriteWhole:
 
     def test_a_name_that_somebody_took_meanwhile_is_theirs(self, tmp_path):
         def taken_meanwhile():
-            with whole_file(tmp_path / "swarm.nc", new=True) as partial:
+            with atomic_file(tmp_path / "swarm.nc", new=True) as partial:
                 partial.write_text("ours")
                 (tmp_path / "swarm.nc").write_text("theirs")
 
@@ -68,7 +68,7 @@ class TestWriteWhole:
         assert left_in(tmp_path) == ["swarm.nc"]
 
     def test_two_writers_of_one_name_do_not_mix(self, tmp_path):
-        with whole_file(tmp_path / "x") as one, whole_file(tmp_path / "x") as two:
+        with atomic_file(tmp_path / "x") as one, atomic_file(tmp_path / "x") as two:
             assert one != two
             one.write_text("one")
             two.write_text("two")
@@ -87,7 +87,8 @@ class TestCheckFile:
         for place, problem in {
             "": "it is a folder", ".": "it is a folder", "/": "it is a folder", "..": "it is a folder",
             "folder": "it is a folder", "link": "it is a folder", "nowhere/x.png": "there is no folder nowhere",
-            "file/x.png": "there is no folder file", "pipe": "it is no plain file", "/dev/null": "it is no plain file",
+            "file/x.png": "there is no folder file", "pipe": "it is not a regular file",
+            "/dev/null": "it is not a regular file",
             "x" * 300: "File name too long", "x" * 5000: "File name too long", "a\0b": "null", "/proc/x.png": "",
         }.items():  # fmt: skip
             where, said = refusal(check_file, Path(place))
@@ -113,7 +114,7 @@ class TestCheckFile:
 
 
 def write(path):
-    with WholeFolder(path, last="b") as folder:
+    with AtomicFolder(path, last="b") as folder:
         for name in "abc":
             (folder.partial / name).write_text(name)
         folder.finish()
@@ -144,7 +145,7 @@ class TestWholeFolder:
         (tmp_path / "empty").mkdir()
 
         def interrupted(place):
-            with WholeFolder(place, last="b") as folder:
+            with AtomicFolder(place, last="b") as folder:
                 (folder.partial / "a").write_text("half")
                 raise end
 
@@ -170,7 +171,7 @@ class TestWholeFolder:
 
     def test_a_file_that_somebody_put_there_meanwhile_is_theirs(self, tmp_path):
         def taken_meanwhile():
-            with WholeFolder(tmp_path / "new", last="b") as folder:
+            with AtomicFolder(tmp_path / "new", last="b") as folder:
                 (folder.partial / "a").write_text("ours")
                 (folder.partial / "b").write_text("ours")
                 (tmp_path / "new" / "b").write_text("theirs")
@@ -181,13 +182,13 @@ class TestWholeFolder:
         assert (tmp_path / "new" / "b").read_text() == "theirs"
 
     def test_a_second_writer_is_refused(self, tmp_path):
-        with WholeFolder(tmp_path / "new", last="b"):
+        with AtomicFolder(tmp_path / "new", last="b"):
             assert refusal(write, tmp_path / "new")[1] == f"is being written by process {os.getpid()}"
         write(tmp_path / "new")
 
     def test_without_locks_too(self, tmp_path, monkeypatch):
         monkeypatch.setattr("fcntl.flock", no_locks)
-        with WholeFolder(tmp_path / "new", last="b"):
+        with AtomicFolder(tmp_path / "new", last="b"):
             assert "of a process that writes there or was killed" in refusal(write, tmp_path / "new")[1]
         write(tmp_path / "new")
         assert left_in(tmp_path / "new") == ["a", "b", "c"]

@@ -26,7 +26,7 @@ class TestNames:
 
     @pytest.mark.parametrize("name", ["", " ", "x" * (LONGEST + 1)])
     def test_are_neither_blank_nor_endless(self, name):
-        with pytest.raises(ValueError, match="is no name; write 1 to 200 characters"):
+        with pytest.raises(ValueError, match="is not a name; write 1 to 200 characters"):
             checked_name(name)
 
 

@@ -86,7 +86,7 @@ class TestWords:
         for kind, text, wanted in (
             (MetersPerSecondSquared, "0.5 kn", "m/s^2, m/s2"),
             (DegreesPerSecond, "15 deg", "deg/s, rad/s"),
-            (Share, "5 m", "is no share; write a number, or one with a unit: %"),
+            (Share, "5 m", "is not a share; write a number, or one with a unit: %"),
         ):
             with pytest.raises(ValidationError, match=re.escape(wanted)):
                 read(kind, text)

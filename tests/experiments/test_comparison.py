@@ -5,9 +5,9 @@ import pytest
 
 from shoal.core.errors import ScenarioError
 from shoal.experiments.cells import make_cells
-from shoal.experiments.compare import by_condition, comparison_design, values_of
 from shoal.experiments.comparison import compare
 from shoal.experiments.contenders import contenders
+from shoal.experiments.run_comparison import by_condition, comparison_design, values_of
 from shoal.metrics.summary import METRICS
 
 NOISE = np.random.default_rng(3).normal(scale=0.05, size=(4, 10))
@@ -94,7 +94,7 @@ class TestMissingRuns:
 
     def test_a_failed_run_and_one_without_the_metric_have_no_value(self):
         rows = [{"status": "done", "xi": 0.5}, {"status": "failed", "xi": None}, {"status": "done", "xi": None}, None]
-        assert values_of({"a": rows}, "xi", whole=2.0)["a"] == pytest.approx([0.25, *[np.nan] * 3], nan_ok=True)
+        assert values_of({"a": rows}, "xi", out_of=2.0)["a"] == pytest.approx([0.25, *[np.nan] * 3], nan_ok=True)
 
 
 class TestDirection:

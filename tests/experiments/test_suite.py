@@ -71,7 +71,7 @@ class TestArena:
 
     def test_what_counts_is_a_share(self, arena):
         for each in arena.conditions:
-            assert METRICS[each.metric].unit == "1" or each.whole == len(each.changes["targets"])
+            assert METRICS[each.metric].unit == "1" or each.out_of == len(each.changes["targets"])
 
     def test_folders_of_conditions_differ(self, arena):
         assert len({each.folder for each in arena.conditions}) == len(arena.conditions)
@@ -155,7 +155,7 @@ class TestPage:
     def test_references_have_no_rank_and_are_called_no_bound(self, arena):
         page = page_part(board(arena, {"knn-pso": 0.7, "pursuit": 0.9, "lattice": 0.5}))
         assert "| – | pursuit (knows the target) |" in page
-        assert "They are no upper bound; no proven one is known." in page
+        assert "They are not an upper bound; no proven one is known." in page
 
 
 class TestPageOfTheDocs:

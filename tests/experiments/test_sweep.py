@@ -267,7 +267,7 @@ class TestKilled:
         os.killpg(process.pid, signal.SIGINT)
         _, said = process.communicate(timeout=100)
         assert process.returncode == 130
-        assert "the same command goes on from there" in said
+        assert "the same command continues from there" in said
         assert "Traceback" not in said
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from paper_rows import KS, hill, made
 from shoal.paper.curves import (
-    Curve,
+    RunCurve,
     bootstrap,
     cells,
     curve,
@@ -23,7 +23,7 @@ from shoal.paper.curves import (
 def noisy(truth, seeds=5, noise=0.003, seed=1, x=KS):
     x = np.array(x, float)
     mean = np.array([truth(k) for k in x])
-    return Curve(x, mean + noise * np.random.default_rng(seed).normal(size=(seeds, x.size)))
+    return RunCurve(x, mean + noise * np.random.default_rng(seed).normal(size=(seeds, x.size)))
 
 
 class TestCurve:
@@ -49,8 +49,8 @@ class TestCurve:
         assert empty.minus(empty).x.size == 0
 
     def test_differences_are_paired_at_the_places_that_both_have(self):
-        one = Curve(np.array([1.0, 2.0, 3.0]), np.array([[1.0, 2.0, 3.0], [2.0, 3.0, 4.0]]))
-        other = Curve(np.array([2.0, 3.0, 4.0]), np.array([[1.0, 1.0, 9.0], [1.0, 1.0, 9.0]]))
+        one = RunCurve(np.array([1.0, 2.0, 3.0]), np.array([[1.0, 2.0, 3.0], [2.0, 3.0, 4.0]]))
+        other = RunCurve(np.array([2.0, 3.0, 4.0]), np.array([[1.0, 1.0, 9.0], [1.0, 1.0, 9.0]]))
         difference = one.minus(other)
         assert difference.x.tolist() == [2.0, 3.0]
         assert difference.runs.tolist() == [[1.0, 2.0], [2.0, 3.0]]
@@ -89,7 +89,7 @@ class TestIntervals:
 
     def test_the_slope_of_a_line_is_found_in_every_seed(self):
         x = np.array([0.0, 1.0, 4.0])
-        assert slopes(Curve(x, np.array([2 * x + 1, 5 - x]))) == pytest.approx([2.0, -1.0])
+        assert slopes(RunCurve(x, np.array([2 * x + 1, 5 - x]))) == pytest.approx([2.0, -1.0])
 
     def test_a_bootstrap_of_one_value_tells_no_interval(self):
         assert math.isnan(bootstrap([2.0], np.median).low)
@@ -108,7 +108,7 @@ class TestPeak:
 
     def test_without_noise_it_is_the_peak_itself(self):
         x = np.arange(2.0, 50.0)
-        found = peak(Curve(x, np.tile(-((x - 20.4) ** 2) + 0.01 * (x - 20.4) ** 3, (3, 1))))
+        found = peak(RunCurve(x, np.tile(-((x - 20.4) ** 2) + 0.01 * (x - 20.4) ** 3, (3, 1))))
         assert found.place.value == pytest.approx(20.4, abs=0.03)
         assert 20.2 < found.place.low < 20.4 < found.place.high < 20.6
         assert found.height.value == pytest.approx(0.0, abs=1e-3)

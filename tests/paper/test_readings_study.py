@@ -8,7 +8,7 @@ from shoal.cli.main import run_command
 from shoal.core.errors import RecordError, ScenarioError
 from shoal.paper import readings_study as module
 from shoal.paper.readings import printed, readings
-from shoal.paper.readings_plan import Stage
+from shoal.paper.readings_plan import Trial
 from shoal.paper.readings_study import Scored
 from shoal.paper.reproduce import reproduce
 from shoal.paper.results import Claim
@@ -22,8 +22,8 @@ def _tiny():
     chosen = [readings()[number] for number in (2, 16, 18, 0)]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, "readings", lambda: chosen)
-        patch.setattr(module, "SCREEN", Stage("screen", 200, 2, SHORT))
-        patch.setattr(module, "FINAL", Stage("final", 300, 2, SHORT))
+        patch.setattr(module, "SCREEN", Trial("screen", 200, 2, SHORT))
+        patch.setattr(module, "FINAL", Trial("final", 300, 2, SHORT))
         patch.setattr(module, "FINALISTS", 2)
         yield
 
@@ -81,7 +81,7 @@ def test_ties_go_to_more_that_hold_then_to_fewer_departures():
             (f"C{at}", "both"): Claim(f"C{at}", "", "", 0, 0, 0, "1", verdict, "")
             for at, verdict in enumerate(verdicts, 1)
         }
-        return Scored(readings()[number], Stage("final", 300, 2), claims, [])
+        return Scored(readings()[number], Trial("final", 300, 2), claims, [])
 
     near, far, more = (
         scored(2, "holds", "undecided"),

@@ -177,4 +177,4 @@ class TestCommandLine:
         except SystemExit as left:  # cyclopts turns an interrupt into this
             code = left.code
         assert code == 130
-        assert "the same command goes on from there" in capsys.readouterr().err
+        assert "the same command continues from there" in capsys.readouterr().err

@@ -251,5 +251,5 @@ class TestDamage:
         assert problem.startswith("is damaged")
 
     def test_another_folder_is_no_record(self, tmp_path):
-        assert "is no record" in refusal(open_record, tmp_path)[1]
-        assert "is no record" in refusal(open_record, tmp_path / "nowhere")[1]
+        assert "is not a record" in refusal(open_record, tmp_path)[1]
+        assert "is not a record" in refusal(open_record, tmp_path / "nowhere")[1]

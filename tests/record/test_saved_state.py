@@ -64,7 +64,7 @@ def test_that_of_another_run_is_refused(file):
         ({"number": np.array(41)}, "is not what was written"),
         ({"x": None}, "x"),
         ({"sha256": None}, "sha256"),
-        ({"x": np.array([{}])}, "is no saved state"),
+        ({"x": np.array([{}])}, "is not a saved state"),
     ],
 )
 def test_an_edited_one_is_refused(file, changes, problem):
@@ -77,7 +77,7 @@ def test_one_that_announces_200_gigabytes_is_refused(file):
     np.lib.format.write_array_header_1_0(head, {"descr": "<f8", "fortran_order": False, "shape": (25 * 10**9,)})
     with zipfile.ZipFile(file, "a") as archive, pytest.warns(UserWarning, match="Duplicate name"):
         archive.writestr("x.npy", head.getvalue())
-    assert refusal(file).startswith("is no saved state: ")
+    assert refusal(file).startswith("is not a saved state: ")
 
 
 def test_whatever_happens_to_its_bytes(file, tmp_path):

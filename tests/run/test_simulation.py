@@ -74,13 +74,13 @@ class TestCheckpoint:
     @pytest.mark.parametrize("size", [0, 999])
     def test_a_file_cut_short_is_refused(self, file, size):
         file.write_bytes(file.read_bytes()[:size])
-        assert "is no saved state" in refusal(advanced(0).restore, file)[1]
+        assert "is not a saved state" in refusal(advanced(0).restore, file)[1]
 
     def test_a_file_of_something_else_is_refused(self, file):
         file.write_text("something else")
-        assert "is no saved state" in refusal(advanced(0).restore, file)[1]
+        assert "is not a saved state" in refusal(advanced(0).restore, file)[1]
         np.savez(file, a=1)
-        assert "is no saved state" in refusal(advanced(0).restore, file)[1]
+        assert "is not a saved state" in refusal(advanced(0).restore, file)[1]
 
     def test_a_full_disk_leaves_the_old_one(self, file, monkeypatch):
         def full_disk(stream, **arrays):

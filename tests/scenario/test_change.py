@@ -95,7 +95,7 @@ class TestWith:
             ({"netwrk.neighbors": 9}, "did you mean 'network'"),
             ({"fleets.BoB-7.count": 9}, "there are: BoB-1, BoB-0"),
             ({"fast": 60}, "from 0 to 50"),
-            ({"target_speed": "6 kg"}, "no quantity in m/s"),
+            ({"target_speed": "6 kg"}, "not a quantity in m/s"),
             ({"strategy": "encirle"}, "did you mean 'encircle'"),
             ({"strategy.dleta": 1}, "did you mean 'delta'"),
             ({"strategy": 3}, "a strategy is a table"),

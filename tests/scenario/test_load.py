@@ -160,7 +160,7 @@ class TestUnits:
         path, line = edited(tmp_path, "max_speed = 2.6", 'max_speed = "2.6 m"')
         where, problem, fix = refusal(path)
         assert where == f"{path}:{line} fleets.0.max_speed"
-        assert problem == "'2.6 m' is no quantity in m/s"
+        assert problem == "'2.6 m' is not a quantity in m/s"
         assert "kn" in fix
 
 
@@ -173,7 +173,7 @@ BAD = {  # what is written instead of what, the field, words of the problem and 
     "unknown in motion": ("speed_rule", "speedrule", "motion.speedrule", "unknown", "did you mean 'speed_rule'"),
     "unknown in target": ("max_turn", "maxturn", "targets.0.maxturn", "unknown field", "did you mean 'max_turn'"),
     "unknown in strategy": ("inertia", "inerta", "strategy.inerta", "unknown field", "did you mean 'inertia'"),
-    "unknown like nothing": ("inertia", "zzz", "strategy.zzz", "unknown field", "fields here: file, name, inertia"),
+    "unknown like nothing": ("inertia", "zzz", "strategy.zzz", "unknown field", "its fields: file, name, inertia"),
     "unknown strategy": ('"knn-pso"', '"knn-spo"', "strategy", "no strategy is called 'knn-spo'", "mean 'knn-pso'"),
     "strategy without name": ('name = "knn-pso"', "", "strategy", "a table with a name", "example"),
     "unknown target": ('"waypoint"', '"waypont"', "targets.0", "waypont", "waypoint"),
@@ -249,7 +249,7 @@ class TestBadFields:
         where, problem, _ = refusal(path)
         assert where == f"{path}:{line} area.width"
         assert "-20.0: input should be greater than 0" in problem
-        assert "also: area.height: 'a' is no quantity in m" in problem
+        assert "also: area.height: 'a' is not a quantity in m" in problem
 
     @pytest.mark.parametrize(
         ("old", "new"),

@@ -206,7 +206,7 @@ class TestEditing:
 
 
 class TestErrors:
-    """Each says which file, what is wrong, and how to mend it."""
+    """Each says which file, what is wrong, and how to fix it."""
 
     def test_no_file(self, tmp_path):
         with pytest.raises(StrategyError) as caught:
@@ -287,7 +287,7 @@ class TestErrors:
         assert "SystemExit" in refusal(tmp_path, "raise SystemExit(0)\n")[1]
 
     def test_parameters_that_are_no_named_tuple(self):
-        with pytest.raises(StrategyError, match="is no NamedTuple"):
+        with pytest.raises(StrategyError, match="is not a NamedTuple"):
             strategy("mine", params=dict)(lambda me, heard, memory, params, draw: (0.0, 0.0))
 
     def test_two_strategies_with_one_class_of_parameters(self, tmp_path):
@@ -295,7 +295,7 @@ class TestErrors:
         assert "Drifter" in refusal(tmp_path, DRIFTER + "\n\nshoal.strategy('other', params=Drifter)(keep_apart)\n")[1]
 
     def test_a_file_that_is_no_python(self, tmp_path):
-        assert refusal(tmp_path, "x = 2\n", "my_strategy.txt")[1] == "is no Python file"
+        assert refusal(tmp_path, "x = 2\n", "my_strategy.txt")[1] == "is not a Python file"
 
     def test_a_file_that_fails_leaves_no_strategy_behind(self, tmp_path):
         refusal(tmp_path, DRIFTER + "\n1 / 0\n")

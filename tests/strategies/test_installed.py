@@ -122,7 +122,7 @@ class TestABrokenPackage:
         code, _, err = shoal(site, "run", "oceans2020", "--strategy", "zigzag", "--steps", "10")
         assert code == 2
         assert "package 'zigzag': zigzag cannot be imported: ZeroDivisionError" in err
-        assert "fix: mend or uninstall it" in err
+        assert "fix: update or uninstall it" in err
         assert shoal(site, "check", "oceans2020")[0] == 0
 
     def test_its_strategy_is_offered_where_a_name_is_unknown(self, site):

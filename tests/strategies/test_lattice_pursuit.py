@@ -13,7 +13,7 @@ def guards(target, place=HOME):
     memory = simulation.minds.memory[0]
     first = (memory["station_x"], memory["station_y"])
     assert first in ((pytest.approx(-4.1), 0.0), (pytest.approx(4.1), 0.0))
-    if first[0] > 0:  # which of the two has which station is no matter
+    if first[0] > 0:  # which of the two has which station does not matter
         put(simulation, [(4.1, 0.0), place])
     return wanted(simulation)[0 if first[0] < 0 else 1]
 

@@ -126,7 +126,7 @@ class TestSnapshot:
             plot.snapshot(records["one run"], step=999)
 
     def test_something_that_is_no_record(self):
-        with pytest.raises(RecordError, match="dict: is no record"):
+        with pytest.raises(RecordError, match="dict: is not a record"):
             plot.snapshot({})
 
 
@@ -196,9 +196,9 @@ class TestCurves:
         assert [label.get_text() for label in axes.get_xticklabels()] == ["a", "b"]
 
     BAD = (
-        ({"y": "fun"}, "y fun: is no metric"),
-        ({"x": "fun"}, "field fun: is none of this sweep"),
-        ({"hue": "fun"}, "field fun: is none of this sweep"),
+        ({"y": "fun"}, "y fun: is not a metric"),
+        ({"x": "fun"}, "field fun: is not a field of this sweep"),
+        ({"hue": "fun"}, "field fun: is not a field of this sweep"),
     )
 
     @pytest.mark.parametrize(("wish", "says"), BAD, ids=[each[1] for each in BAD])

@@ -91,7 +91,7 @@ class TestBadLine:
             ("60,0,361", "lon 361 is outside [-180, 360]"),
             ("noon,0,0", "time 'noon' cannot be read"),
             ("2020-13-01T00:00:00Z,0,0", "time '2020-13-01T00:00:00Z' cannot be read"),
-            ("1e300,0,0", "time 1e300 is no unix time"),
+            ("1e300,0,0", "time 1e300 is not a Unix time"),
             ("60,1_0,0", "lat '1_0' is not a number"),
             ("60,٣,0", "lat '٣' is not a number"),
             ("1_600_000_000,0,0", "time '1_600_000_000' cannot be read"),

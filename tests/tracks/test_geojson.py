@@ -97,7 +97,7 @@ class TestGeojson:
     def test_what_is_no_json_is_named_with_its_line(self, tmp_path):
         where, problem, _ = refusal(write(tmp_path, "t.json", "{", '"a": }'))
         assert where.endswith("t.json:2")
-        assert problem.startswith("is no JSON")
+        assert problem.startswith("is not JSON")
 
     def test_json_too_deep_is_refused(self, tmp_path):
         assert "cannot be read" in refusal(write(tmp_path, "t.json", "[" * 100_000))[1]

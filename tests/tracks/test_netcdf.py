@@ -108,8 +108,8 @@ class TestNetcdf:
     @pytest.mark.parametrize(
         ("units", "more", "words"),
         [
-            ("seconds", {}, "no time that was recorded"),
-            ("fortnights since 2020-01-01", {}, "no time that was recorded"),
+            ("seconds", {}, "not a time that was recorded"),
+            ("fortnights since 2020-01-01", {}, "not a time that was recorded"),
             (UNITS, {"calendar": "noleap"}, "calendar 'noleap'"),
             ("seconds since yesterday", {}, "'yesterday' cannot be read"),
         ],
@@ -128,7 +128,7 @@ class TestNetcdf:
             time=self.time(["time"], [0, 60]),
         )
         _, problem, _ = refusal(path)
-        assert problem == "lat(lat), lon(lon), time(time) is no trajectory; is it a grid?"
+        assert problem == "lat(lat), lon(lon), time(time) is not a trajectory; is it a grid?"
 
     def test_a_bad_value_is_named_with_its_index(self, netcdf):
         where, problem, _ = refusal(self.single(netcdf, lat=self.lat(["obs"], [0, 0, 95])))
@@ -149,7 +149,7 @@ class TestNetcdf:
         time = self.time(["obs"], [0.0, 60.0, 1e15])
         where, problem, _ = refusal(self.single(netcdf, time=time))
         assert where.endswith("track.nc[2]")
-        assert "is no unix time in the years 1 to 9999" in problem
+        assert "is not a Unix time in the years 1 to 9999" in problem
 
     def test_times_in_32_bits_are_refused_with_the_reason(self, netcdf):
         days = np.array([27000 + i / 1440 for i in range(3)], np.float32)

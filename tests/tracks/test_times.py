@@ -57,7 +57,7 @@ class TestForms:
         assert "cannot be read" in caught.value.args[1]
 
     def test_a_number_beyond_the_year_9999_is_refused(self):
-        with pytest.raises(TrackError, match="is no unix time in the years 1 to 9999"):
+        with pytest.raises(TrackError, match="is not a Unix time in the years 1 to 9999"):
             read("1e300", "1e300")
 
 

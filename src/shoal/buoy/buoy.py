@@ -79,7 +79,12 @@ class Buoy:
         return dict(self._mind.remembered())
 
     def begin(self, reading: Reading) -> None:
-        """Set up the memory, where the buoy lies before the first step; `decide` and `report` do so if nobody did."""
+        """Set up the memory before the first step; `decide` and `report` do so if it was not done.
+
+        Parameters
+        ----------
+        reading : what its instruments say where it lies; only the position counts
+        """
         start = reading._replace(vx=0.0, vy=0.0, on_target=False)
         with self._crew.naming_errors():
             self._mind.begin(self._own(start, 0))

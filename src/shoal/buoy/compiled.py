@@ -9,7 +9,7 @@ from shoal.core.agents import as_records, width
 from shoal.core.messages import Own, Report
 from shoal.core.wire import told_class
 from shoal.scenario.crew import Crew
-from shoal.strategies.alone import Inbox, begin_one, decide_one, key_of_run
+from shoal.strategies.one_agent import Inbox, begin_one, decide_one, key_of_run
 
 
 class CompiledMind:

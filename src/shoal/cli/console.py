@@ -9,7 +9,7 @@ from rich.text import Text
 from shoal.core.text import plain
 
 _NO_MARGIN = 160  # columns; a file or a pipe has no margin to fit
-_NARROWEST = 40  # columns; COLUMNS=0 is no width
+_NARROWEST = 40  # columns; COLUMNS=0 is not a width
 
 
 class _PlainConsole(Console):

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
+from shoal.cli.numbers import Integer, MaybeInteger, MaybeNumber
 from shoal.cli.older import opened
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler, tell_of_compiling
-from shoal.cli.whole import MaybeNumber, MaybeWhole, Whole
 from shoal.core.errors import ScenarioError
 from shoal.core.text import cut
 
@@ -27,20 +27,20 @@ def film(
     /,
     *,
     out: Path,
-    start: MaybeWhole = None,
-    steps: MaybeWhole = None,
-    every: MaybeWhole = None,
-    step: MaybeWhole = None,
+    start: MaybeInteger = None,
+    steps: MaybeInteger = None,
+    every: MaybeInteger = None,
+    step: MaybeInteger = None,
     seconds: MaybeNumber = None,
     fps: MaybeNumber = None,
     size: str | None = None,
-    run: Whole = 0,
+    run: Integer = 0,
     links: Annotated[bool, _No] = False,
     trails: bool = True,
     halos: Annotated[bool, _No] = False,
     sensors: Annotated[bool, _No] = False,
     panels: Annotated[bool, _No] = False,
-    seed: MaybeWhole = None,
+    seed: MaybeInteger = None,
     assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
 ) -> None:
     """Make a film (.mp4, .gif) or a still (.png) of a record, or of a scenario, which is run for it.
@@ -56,7 +56,7 @@ def film(
     steps
         Steps shown, from --start, or the last ones of a record. Default: of a scenario 600; of a record all.
     every
-        Show every so many-th step; default 1, or what the record kept.
+        Show every n-th step; default 1, or what the record kept.
     step
         With .png: the step to show.
     seconds
@@ -77,7 +77,7 @@ def film(
     sensors
         Draw how far each buoy senses.
     panels
-        Draw charts beside the arena: who heads where, how many are on target.
+        Draw charts beside the arena: headings, how many are on target.
     seed
         Of a scenario: seed of all chance.
     assignments
@@ -151,7 +151,9 @@ def _size(text: str | None) -> tuple[int | None, int | None]:
         return None, None
     numbers = re.fullmatch(r"([0-9]{1,5})(?:x([0-9]{1,5}))?", text.lower())
     if not numbers:
-        raise ScenarioError(f"--size {cut(text)}", "is no size", "write WIDTHxHEIGHT such as 1280x720, or WIDTH alone")
+        raise ScenarioError(
+            f"--size {cut(text)}", "is not a size", "write WIDTHxHEIGHT such as 1280x720, or WIDTH alone"
+        )
     return int(numbers[1]), int(numbers[2]) if numbers[2] else None
 
 

@@ -69,8 +69,8 @@ def run_command(tokens: list[str]) -> int:
         tell(f"the result cannot be printed: {error}\n  fix: send it where there is room, or to /dev/null")
         return CANNOT_PRINT
     except OSError as error:
-        told = error.filename if isinstance(error.filename, str) else "the system"
-        tell(str(ShoalError(told, error.strerror or str(error), "name a file or folder that you may use")))
+        where = error.filename if isinstance(error.filename, str) else "the system"
+        tell(str(ShoalError(where, error.strerror or str(error), "name a file or folder that you may use")))
         return BAD_INPUT
     except RecursionError:
         tell("an input is nested too deeply\n  fix: a scenario is four levels deep at most")

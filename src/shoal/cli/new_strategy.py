@@ -23,7 +23,7 @@ def new_strategy(name: str, /, *, folder: Path = Path()) -> None:
 
     module = name.replace("-", "_")
     if not re.fullmatch(r"[a-z][a-z0-9]*([-_][a-z0-9]+)*", name) or keyword.iskeyword(module):
-        raise StrategyError(f"name {name!r}", "is no name of a strategy", "write lower-case words, such as zig-zag")
+        raise StrategyError(f"name {name!r}", "is not a strategy name", "write lower-case words, such as zig-zag")
     if name in CATALOGUE:
         raise StrategyError(f"name {name!r}", "is a strategy that comes with Shoal", "choose another")
     words = {"NAME": name, "MODULE": module, "CLASS": module.title().replace("_", "")}

@@ -27,7 +27,7 @@ def progress_bar(what: str, unit: str = "steps") -> Iterator[Callable[[int, int]
 
 
 def note(message: str) -> None:
-    """Tell the user something that is no result."""
+    """Tell the user something that is not a result."""
     tell(message)
 
 

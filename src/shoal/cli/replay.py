@@ -3,10 +3,10 @@
 from pathlib import Path
 from typing import Literal
 
+from shoal.cli.numbers import Integer
 from shoal.cli.older import opened
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler
-from shoal.cli.whole import Whole
 
 
 def replay(
@@ -14,7 +14,7 @@ def replay(
     /,
     *,
     out: Path,
-    frames: Whole = 2000,
+    frames: Integer = 2000,
     part: Literal["all", "end"] = "all",
 ) -> None:
     """Write a page that plays a record in any browser, by itself: no server, no network.
@@ -32,7 +32,7 @@ def replay(
     """
     load_compiler()
     from shoal.core.errors import ScenarioError
-    from shoal.core.files import check_file, write_whole
+    from shoal.core.files import check_file, write_atomic
     from shoal.run.simulate import simulate
     from shoal.scenario.load import load
     from shoal.viewer.replay import replay_page
@@ -47,5 +47,5 @@ def replay(
         every = max(1, -(-scenario.steps // frames)) if part == "all" else None
         with progress_bar(f"{scenario.name}, {scenario.steps:,} steps") as progress:
             record = simulate(scenario, every=every, progress=progress)
-    write_whole(out, replay_page(record, frames=frames, part=part).encode(), ours=True)
+    write_atomic(out, replay_page(record, frames=frames, part=part).encode(), ours=True)
     note(f"page: {out} ({out.stat().st_size / 1e6:.1f} MB)")

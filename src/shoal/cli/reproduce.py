@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from shoal.cli.numbers import MaybeInteger
 from shoal.cli.output import write
 from shoal.cli.progress import note
 from shoal.cli.sweep_progress import sweep_progress
-from shoal.cli.whole import MaybeWhole
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -23,7 +23,7 @@ def reproduce(
     quick: Annotated[bool, Parameter(negative=())] = False,
     readings: Annotated[bool, Parameter(negative=())] = False,
     out: Path | None = None,
-    jobs: MaybeWhole = None,
+    jobs: MaybeInteger = None,
 ) -> None:
     """Run a paper's experiments, test its claims, and write a report; the same command again resumes.
 
@@ -49,7 +49,7 @@ def reproduce(
         found = run_all(paper, folder, quick=quick, readings=readings, jobs=jobs, report=report)
     failed = [row for row in (*found.main, *found.refit, *found.sensitivity) if row["status"] == "failed"]
     if failed:
-        note(f"{len(failed)} runs failed, the first: {failed[0]['error']}\n  fix: mend it, then the same command again")
+        note(f"{len(failed)} runs failed, the first: {failed[0]['error']}\n  fix: correct it, then repeat the command")
     (_print_readings if readings else _print_claims)(found)
     write(f"report: {folder / 'report.html'}\n")
 
@@ -66,9 +66,9 @@ def _print_claims(found: "Reproduction") -> None:
         table.add_column(title)
     others = {claim.id: claim for claim in found.refit_claims}
     for claim in found.claims:
-        told = [claim, *([others[claim.id]] if claim.id in others else [])]
-        verdicts = [small_print(each.verdict, each.cases.replace(", ", "\n")) for each in told]
-        measured = "\nrefit: ".join(each.measured for each in told)
+        judged = [claim, *([others[claim.id]] if claim.id in others else [])]
+        verdicts = [small_print(each.verdict, each.cases.replace(", ", "\n")) for each in judged]
+        measured = "\nrefit: ".join(each.measured for each in judged)
         table.add_row(claim.id, *verdicts, small_print(claim.statement, measured))
     console.print(table)
     differ = [claim.id for claim in found.claims if claim.id in others and claim.verdict != others[claim.id].verdict]

@@ -105,14 +105,14 @@ def plot(
 def _tell_of(rows: list[dict[str, Any]]) -> None:
     """Say what the numbers do not: which results version they are of, and which runs gave none."""
     if not rows:
-        note("no run has ended yet; the same shoal sweep command goes on")
+        note("no run has ended yet; the same shoal sweep command continues it")
         return
     tell_of_version(rows[0]["results_version"])
     failed = [row["error"] for row in rows if row["status"] == "failed"]
     if failed:
         many = f"all {len(rows)} runs" if len(failed) == len(rows) else f"{len(failed)} of {len(rows)} runs"
         note(f"{many} failed and gave no numbers; the first: {failed[0]}")
-        note("mend it, then the same shoal sweep command with --retry-failed")
+        note("correct it, then repeat the shoal sweep command with --retry-failed")
 
 
 def _print_groups(groups: list[dict[str, Any]], by: list[str]) -> None:

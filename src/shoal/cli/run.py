@@ -6,12 +6,12 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from shoal.cli.numbers import Integer, MaybeInteger, MaybeSteps
 from shoal.cli.options import check_most, edited_table
 from shoal.cli.output import write
 from shoal.cli.places import check_places
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler, tell_of_compiling
-from shoal.cli.whole import MaybeSteps, MaybeWhole, Whole
 
 
 def run(
@@ -19,18 +19,18 @@ def run(
     /,
     *,
     neighbors: Annotated[str | None, Parameter(name=["--neighbors", "-k"])] = None,
-    fast: MaybeWhole = None,
-    agents: MaybeWhole = None,
+    fast: MaybeInteger = None,
+    agents: MaybeInteger = None,
     target_speed: str | None = None,
     steps: MaybeSteps = None,
-    seed: MaybeWhole = None,
-    runs: Whole = 1,
-    jobs: MaybeWhole = None,
+    seed: MaybeInteger = None,
+    runs: Integer = 1,
+    jobs: MaybeInteger = None,
     strategy: str | None = None,
     target_track: str | None = None,
     track_id: str | None = None,
     assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
-    every: MaybeWhole = None,
+    every: MaybeInteger = None,
     out: Path | None = None,
     figure: Path | None = None,
     json_: Annotated[bool, Parameter(name="--json", negative=())] = False,
@@ -66,7 +66,7 @@ def run(
     assignments
         Any field by its path, such as strategy.delta=0.02 or fleets.BoB-1.start=corner; may be repeated.
     every
-        With --out, keep every so many-th step of every run; default an overview of the first run and its last steps.
+        With --out, keep every n-th step of every run; default an overview of the first run and its last steps.
     out
         Save the record to this new folder.
     figure

@@ -1,4 +1,4 @@
-"""shoal scenario, check, schema: write, prove and describe scenario files."""
+"""shoal scenario, check, schema: write, check and describe scenario files."""
 
 import json
 

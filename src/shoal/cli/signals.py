@@ -13,7 +13,7 @@ class Ended(KeyboardInterrupt):
 
 
 def heed_signals() -> None:
-    """Raise Ended on them from now on, but for one that was to be ignored, as nohup says."""
+    """Raise Ended on them from now on, except on one that is ignored, as under nohup."""
     for name in ("SIGTERM", "SIGHUP"):
         number = getattr(signal, name, None)  # Windows has no SIGHUP
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:

@@ -6,11 +6,11 @@ from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter
 
+from shoal.cli.numbers import Integer, MaybeInteger, MaybeNumber, MaybeSteps
 from shoal.cli.output import write
 from shoal.cli.progress import note
 from shoal.cli.startup import load_compiler
 from shoal.cli.sweep_progress import sweep_progress
-from shoal.cli.whole import MaybeNumber, MaybeSteps, MaybeWhole, Whole
 
 _MOST_RUNS = 10_000_000
 
@@ -21,15 +21,15 @@ def sweep(
     *,
     out: Path | None = None,
     vary: Annotated[list[str] | None, Parameter(negative=(), consume_multiple=False)] = None,
-    runs: MaybeWhole = None,
-    jobs: MaybeWhole = None,
+    runs: MaybeInteger = None,
+    jobs: MaybeInteger = None,
     executor: Literal["local", "dask"] = "local",
     scheduler: str | None = None,
     steps: MaybeSteps = None,
-    seed: MaybeWhole = None,
+    seed: MaybeInteger = None,
     assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
     until_ci: MaybeNumber = None,
-    max_runs: Whole = 50,
+    max_runs: Integer = 50,
     independent: Annotated[bool, Parameter(negative=())] = False,
     retry_failed: Annotated[bool, Parameter(negative=())] = False,
     dry_run: Annotated[bool, Parameter(negative=())] = False,
@@ -62,7 +62,7 @@ def sweep(
     until_ci
         Add replicates to each combination until the 95 % interval of its time on target is narrower than this.
     max_runs
-        But no more than so many.
+        The most replicates of each combination then.
     independent
         Give every combination a seed of its own.
     retry_failed
@@ -117,7 +117,7 @@ def sweep(
     note(f"next: shoal results {out}   shoal plot {out}")
     if failed:
         first = next(row["error"] for row in rows if row["status"] == "failed")
-        note(f"first failure: {first}\n  fix: mend it, then add --retry-failed")
+        note(f"first failure: {first}\n  fix: correct it, then add --retry-failed")
 
 
 def _design(source: str, vary: list[str], runs: int | None) -> Any:

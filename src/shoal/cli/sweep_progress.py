@@ -22,7 +22,7 @@ def sweep_progress(store: Path | None) -> Iterator[Callable[[Progress], None]]:
             yield report
     except KeyboardInterrupt:
         if store:
-            note(f"what is done is in {store}; the same command goes on from there")
+            note(f"what is done is in {store}; the same command continues from there")
         raise
 
 

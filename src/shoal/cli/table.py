@@ -48,8 +48,8 @@ def print_record(record: Record) -> None:
     console.print("  " + " ".join(f"{agents:.2f}" for agents in record.phi_histogram().sum(axis=0)))
     short = ", ".join(METRICS[name].words for name in record.too_short())
     if short:
-        told = textwrap.fill(f"too short for an interval of {short}: more steps or more runs tell it", 78)
-        console.print(styled(told, "dim"))
+        text = textwrap.fill(f"too short for an interval of {short}: more steps or more runs determine it", 78)
+        console.print(styled(text, "dim"))
     method = "over runs" if runs > 1 else "by batch means"
     console.print(styled(f"intervals {method}; {record.provenance['seconds']:g} s", "dim"))
 

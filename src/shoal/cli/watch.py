@@ -1,4 +1,4 @@
-"""shoal watch: a run in the browser while it goes on."""
+"""shoal watch: a run in the browser as it runs."""
 
 import webbrowser
 from contextlib import suppress
@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
+from shoal.cli.numbers import Integer, MaybeInteger, MaybeSteps, Number
 from shoal.cli.older import opened
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler, tell_of_compiling
-from shoal.cli.whole import MaybeSteps, MaybeWhole, Number, Whole
 
 if TYPE_CHECKING:
     from shoal.viewer.session import Session
@@ -23,22 +23,22 @@ def watch(
     *,
     against: str | None = None,
     neighbors: Annotated[str | None, Parameter(name=["--neighbors", "-k"])] = None,
-    fast: MaybeWhole = None,
-    agents: MaybeWhole = None,
+    fast: MaybeInteger = None,
+    agents: MaybeInteger = None,
     target_speed: str | None = None,
     steps: MaybeSteps = None,
-    seed: MaybeWhole = None,
+    seed: MaybeInteger = None,
     strategy: str | None = None,
     target_track: str | None = None,
     track_id: str | None = None,
     assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
     speed: Number = 1.0,
     host: str = "127.0.0.1",
-    port: Whole = 0,
+    port: Integer = 0,
     browser: bool = True,
     out: Path | None = None,
 ) -> None:
-    """Watch a run in the browser and change it while it goes on. Ctrl-C ends it.
+    """Watch a run in the browser and change it as it runs. Ctrl-C ends it.
 
     Parameters
     ----------
@@ -154,11 +154,11 @@ def _record(session: "Session", out: Path) -> None:
     from shoal.run.simulate import simulate
     from shoal.scenario.schema import Scenario
 
-    whole = session.runs[0].simulation.scenario
-    watched = Scenario.model_validate({**dict(whole), "steps": session.number})
+    planned = session.runs[0].simulation.scenario
+    watched = Scenario.model_validate({**dict(planned), "steps": session.number})
     with progress_bar(f"recording {watched.steps:,} steps") as progress:
         simulate(watched, out=out, progress=progress)
-    note(f"record: {out}, {watched.steps:,} of {whole.steps:,} steps (shoal show {out})")
+    note(f"record: {out}, {watched.steps:,} of {planned.steps:,} steps (shoal show {out})")
 
 
 def _play_record(folder: str, host: str, port: int, browser: bool) -> None:
@@ -188,6 +188,6 @@ def _announce(address: str, host: str, browser: bool) -> None:
 
     note(f"watch at {address} (Ctrl-C ends)")
     if not is_local(host):
-        note(f"everybody who reaches {host} can watch and control this run")
+        note(f"anybody who can reach {host} can watch and control this run")
     if browser:
         webbrowser.open(address)

@@ -1,6 +1,6 @@
 """A phase: a part of the engine that is compiled once for all strategies and called through its address.
 
-Numba compiles whatever a kernel calls into the kernel, so everything that `rollout` calls is compiled anew for every
+Numba compiles whatever a kernel calls into the kernel, so everything that `rollout` calls is recompiled for every
 strategy. A phase is not: it is called through a number, the address of its machine code, and is handed another, the
 address of the stage (compiler/placed.py). That takes most of the compiling off every strategy
 (docs/decisions/0005-phases.md).

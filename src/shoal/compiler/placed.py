@@ -13,7 +13,7 @@ Who owns what, and for how long:
 - The block is the Placed's, and so are the arrays that it points at, through `Placed.stage`. Both live as long as the
   Placed does: whoever hands the address to a kernel keeps the Placed until the kernel is back.
 - Arrays are shared: what a kernel writes into them, Python sees, and the other way round.
-- Numbers in the block are copies: who changes one (World, Radio) places the stage anew.
+- Numbers in the block are copies: after a change of one (World, Radio) the stage is placed again.
 - Kernels own nothing. `part` reads arrays without counting references, which would cost more than a step; so a kernel
   must neither keep such an array nor return it to Python.
 
@@ -137,13 +137,13 @@ def _store(context, stage, address):
 
 @_as_literal_kernel
 def _load(context, stage, field):
-    place, whole = field.literal_value, _type()
+    place, stage = field.literal_value, _type()
 
     def build(context, builder, signature, arguments):
-        pointer = builder.inttoptr(arguments[0], context.get_data_type(whole).as_pointer())
-        return _unowned(context, builder, whole[place], cgutils.gep_inbounds(builder, pointer, 0, place))
+        pointer = builder.inttoptr(arguments[0], context.get_data_type(stage).as_pointer())
+        return _unowned(context, builder, stage[place], cgutils.gep_inbounds(builder, pointer, 0, place))
 
-    return whole[place](types.int64, field), build
+    return stage[place](types.int64, field), build
 
 
 def _unowned(context: Any, builder: Any, kind: Any, pointer: Any) -> Any:

@@ -24,8 +24,8 @@ class Bodies(NamedTuple):
     """State of N agents, all that changes of them, in arrays of L >= N lanes; lanes from N on are padding, never seen.
 
     x, y, vx, vy : position and velocity; command_x, command_y : the speed-limited velocity before the wall
-    on_target : what it believes and reports; engaged : whether it detects a target that is there, no false alarm
-    alive : 1.0, or 0.0 of an agent that is lost or not yet there; joins, leaves : it is there in steps [joins, leaves)
+    on_target : what it believes and reports; engaged : whether it detects a present target, not a false alarm
+    alive : 1.0, or 0.0 if lost or not yet joined; joins, leaves : it is present in steps [joins, leaves)
     neighbors : k of each agent; contact : share of recent steps with a leader, by which k may adapt
     memory, told : (L, fields) what agents remember, and what of it they tell; the strategy sees them as `Minds`
     """
@@ -51,7 +51,7 @@ class Makes(NamedTuple):
     """What is chosen of N agents and does not change, in arrays of L lanes.
 
     max_speed [m/s], sensor_radius [m]
-    detection, false_alarm : chance per step to notice a target within reach, and to report one that is not there
+    detection, false_alarm : chance per step to notice a target within reach, and to report an absent one
     max_acceleration [m/s^2], max_turn_rate [rad/s] : inf for none
     share_end : its part of the swarm's summed top speeds ends here, see `Briefing`
     fleet : index of the agent's fleet; fleet_end : (F,) one past the last agent of each fleet

@@ -72,13 +72,13 @@ class UnknownNameError(ShoalError, KeyError):
 
 
 def no_attribute(owner: str, name: str, known: Iterable[str]) -> AttributeError:
-    """Return the error of an attribute that is not there: it says which are, and which was probably meant."""
+    """Return the error that `owner` has no attribute `name`: it lists those `known`, and the one meant."""
     names = list(known)
     return AttributeError(f"{owner} has no attribute {name!r}; {did_you_mean(name, names)}{_all(names)}", name=name)
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return the question whether a known name was meant, a space behind it; nothing if none is near.
+    """Return the question whether a known name was meant, a space after it; empty if none is near.
 
     Near is the path or the only name that ends in it, or else what is spelt alike, what has these initials, the only
     one with this part.

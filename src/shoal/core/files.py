@@ -1,4 +1,4 @@
-"""Files and folders that are whole or not there, and nothing of somebody else's that is lost for them.
+"""Files and folders that are complete or absent, and nothing of somebody else's that is lost for them.
 
 What is written lies under a name that no two writers share, and takes its own when complete.
 """
@@ -48,7 +48,7 @@ def check_file(path: str | Path, *, new: bool = False, ours: bool = False) -> Pa
         if new and os.path.lexists(path):
             raise RecordError(where, "exists already", "name another one, or remove this one first")
         if place.exists() and not place.is_file():
-            raise RecordError(where, "cannot be written: it is no plain file", "name a file")
+            raise RecordError(where, "cannot be written: it is not a regular file", "name a file")
         if ours and place.exists() and not _is_marked(place):
             raise RecordError(
                 where, "exists already, and was not made by Shoal", "name another file, or remove this one first"
@@ -68,10 +68,10 @@ def _is_marked(file: Path) -> bool:
 
 
 @contextmanager
-def whole_file(path: str | Path, *, new: bool = False, ours: bool = False) -> Iterator[Path]:
-    """Yield a place to write to; what is there at the end becomes the file.
+def atomic_file(path: str | Path, *, new: bool = False, ours: bool = False) -> Iterator[Path]:
+    """Yield a place to write to; what it holds at the end becomes the file.
 
-    Whatever ends it else, an interrupt too, leaves nothing, and what was there before is untouched.
+    If anything else ends the block, an interrupt too, nothing is left and what was there before is untouched.
 
     Parameters
     ----------
@@ -95,14 +95,14 @@ def whole_file(path: str | Path, *, new: bool = False, ours: bool = False) -> It
             partial.unlink(missing_ok=True)
 
 
-def write_whole(path: str | Path, content: bytes, *, ours: bool = False) -> None:
-    """Write a file that is either complete or not there; `ours` as `check_file`.
+def write_atomic(path: str | Path, content: bytes, *, ours: bool = False) -> None:
+    """Write a file that is either complete or absent; `ours` as `check_file`.
 
     Raises
     ------
     RecordError : it cannot be written
     """
-    with whole_file(path, ours=ours) as partial:
+    with atomic_file(path, ours=ours) as partial:
         partial.write_bytes(content)
 
 
@@ -208,7 +208,7 @@ def check_folder(path: str | Path, known: Iterable[str]) -> None:
         raise RecordError(str(path), "is not empty, and not of this command", "name a new or empty folder")
 
 
-class WholeFolder:
+class AtomicFolder:
     """A folder that is complete, or holds nothing of ours: write into `partial`, and `finish`.
 
     Parameters

@@ -38,7 +38,7 @@ class Reading(NamedTuple):
 class Truth(NamedTuple):
     """The nearest target as it is, for strategies declared `informed`; all others get zeros.
 
-    present : is there any; x, y [m]; vx, vy [m/s]; goal_x, goal_y : where it is heading to [m]
+    present : whether there is any; x, y [m]; vx, vy [m/s]; goal_x, goal_y : where it is heading to [m]
     """
 
     present: bool

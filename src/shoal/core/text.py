@@ -19,7 +19,7 @@ def hides(character: str) -> bool:
 
 
 def plain(text: str, keep: str = "") -> str:
-    r"""Return a text as it can be shown anywhere: characters that hide become \x1b and alike, but for those to keep."""
+    r"""Return a text as it can be shown anywhere: hidden characters become \x1b and the like, except those to keep."""
     if text.isascii() and text.isprintable():
         return text
     return "".join(each if each in keep or not hides(each) else ascii(each)[1:-1] for each in text)
@@ -35,7 +35,7 @@ def checked_name(text: str) -> str:
     if hidden := next(filter(hides, text), ""):
         raise ValueError(f"{quoted(text)} holds the control character {hidden!a}; leave it out")
     if not text.strip() or len(text) > LONGEST:
-        raise ValueError(f"{quoted(text)} is no name; write 1 to {LONGEST} characters")
+        raise ValueError(f"{quoted(text)} is not a name; write 1 to {LONGEST} characters")
     return text
 
 

@@ -34,21 +34,21 @@ class Unit:
     def parse(self, value: Any) -> Any:
         """Return `value` in the unit's SI scale.
 
-        Numbers pass through unchanged, but for those so small that their squares would vanish; "5 kn" is converted.
+        Numbers pass through unchanged, except those so small that their squares would vanish; "5 kn" is converted.
 
         Raises
         ------
-        ValueError : a string that is no quantity, one in a unit of another kind, or a quantity too large to square
+        ValueError : a string that is not a quantity, a unit of another kind, or a quantity too large to square
         """
         if isinstance(value, bool):
-            raise ValueError(f"{value} is no {self._kind}; write a number")
+            raise ValueError(f"{value} is not a {self._kind}; write a number")
         known = _TO_SI[self.symbol]
         number = value
         if isinstance(value, str):
             match = _QUANTITY.fullmatch(value)
             if match is None or match.group(2) not in known:
                 raise ValueError(
-                    f"{quoted(value)} is no {self._kind}; write a number, or one with a unit: {', '.join(known)}"
+                    f"{quoted(value)} is not a {self._kind}; write a number, or one with a unit: {', '.join(known)}"
                 )
             number = float(match.group(1)) * known[match.group(2)]
         size = abs(number) if isinstance(number, (int, float)) else 0

@@ -19,7 +19,7 @@ _CHECK = struct.Struct("<I")
 
 
 def wire_bytes(told: int) -> int:
-    """Size of a report that tells so many numbers [B]."""
+    """Size of a report that tells this many numbers [B]."""
     return _HEAD.size + 8 * told + _CHECK.size
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from shoal.core.errors import MissingExtraError, RecordError
-from shoal.core.files import MARK, whole_file
+from shoal.core.files import MARK, atomic_file
 
 COLORS = 96  # of a gif's palette; figures have few, and their edges blend
 
@@ -53,7 +53,7 @@ def encoder(file: Path, size: tuple[int, int], fps: float, palette: bytes | None
     """
     ffmpeg = find_ffmpeg()
     look: tuple[str, ...]
-    with whole_file(file, ours=True) as partial, tempfile.TemporaryDirectory(prefix="shoal-film-") as folder:
+    with atomic_file(file, ours=True) as partial, tempfile.TemporaryDirectory(prefix="shoal-film-") as folder:
         if file.suffix.lower() == ".gif":
             colors = _palette(file, ffmpeg, Path(folder) / "palette.png", size, palette or b"")
             look = ("-i", str(colors), *_GIF)

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from shoal.core.errors import ShoalError
-from shoal.core.files import check_file, whole_file
+from shoal.core.files import atomic_file, check_file
 from shoal.core.version import VERSION
 from shoal.drawing.style import RC, require_matplotlib, style
 
@@ -33,7 +33,7 @@ def save_figure(figure: "Figure", path: str | Path, dpi: float | None = None) ->
     MissingExtraError : matplotlib is not installed
     """
     kind = figure_format(path)
-    with whole_file(path, ours=True) as partial, style(), partial.open("xb") as stream:
+    with atomic_file(path, ours=True) as partial, style(), partial.open("xb") as stream:
         figure.savefig(stream, format=kind, dpi=dpi or RC["savefig.dpi"], facecolor="white", metadata=_NO_DATES[kind])
 
 

@@ -73,6 +73,15 @@ def write_film(
 
     `write_film(record, "swarm.mp4", steps=200, look=FilmLook(fps=25, parts=Parts(links=True)))`
 
+    Parameters
+    ----------
+    record : of a run that kept a trajectory
+    path : a file .mp4, .gif, or .png
+    run : number of the run
+    start, steps, every : first step shown, how many, and one in how many
+    look : size, frame rate, and what is drawn
+    progress : called as progress(frames done, frames in all)
+
     Raises
     ------
     ShoalError : another suffix, or a frame rate or size that cannot be

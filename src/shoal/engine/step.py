@@ -40,7 +40,7 @@ class Now(NamedTuple):
 
 @kernel
 def step(parts, minds, params, now):
-    """Advance the world by a time-step."""
+    """Advance the world by a time-step: Algorithm 2."""
     phases, world, radio = parts.phases, parts.world, parts.radio
     run(phases.sense, parts, now, 0)
     if now.frame >= 0:

@@ -48,8 +48,8 @@ def make_cells(design: Design, changes: Point, *, independent: bool = False) -> 
     files: dict[str, Any] = {}
     name = name_of_source(design.scenario)
     for point in design.points:
-        told = ", ".join(f"{name}={value}" for name, value in point.items())
-        scenario = scenario_from(apply(base, point), where=f"{name} ({told})" if told else name)
+        values = ", ".join(f"{name}={value}" for name, value in point.items())
+        scenario = scenario_from(apply(base, point), where=f"{name} ({values})" if values else name)
         if independent:
             scenario = scenario.model_copy(update={"seed": _seed_of(scenario)})
         called, choice = scenario.strategy.name, point.get("strategy")

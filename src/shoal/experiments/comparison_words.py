@@ -7,8 +7,8 @@ from shoal.experiments.paired import SIGNIFICANT
 from shoal.record.words import spread_text
 
 REFERENCES = (
-    "References that know the target have no rank: no buoy could follow them. They are no upper bound; no proven one "
-    "is known."
+    "References that know the target have no rank: no buoy could follow them. They are not an upper bound; no "
+    "proven one is known."
 )
 
 

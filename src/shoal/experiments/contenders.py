@@ -44,7 +44,7 @@ def contenders(named: Sequence[str]) -> list[Contender]:
     if len(found) == 1:
         raise ScenarioError(
             "STRATEGIES",
-            f"only the {LATTICE} is there to compare",
+            f"there is only the {LATTICE} to compare",
             "name a strategy or more, such as knn-pso charged-pso",
         )
     return list(found.values())

@@ -52,13 +52,13 @@ def together(vary: Mapping[str, Sequence[Any]]) -> list[Point]:
     """
     counts = {name: len(values) for name, values in vary.items()}
     if len(set(counts.values())) > 1:
-        told = ", ".join(f"{name} {count}" for name, count in counts.items())
-        raise ScenarioError("zip", f"fields have different numbers of values: {told}", "give each the same number")
+        counted = ", ".join(f"{name} {count}" for name, count in counts.items())
+        raise ScenarioError("zip", f"fields have different numbers of values: {counted}", "give each the same number")
     return [dict(zip(vary, values, strict=True)) for values in zip(*vary.values(), strict=True)]
 
 
 def latin_hypercube(vary: Mapping[str, Sequence[Any]], samples: int, seed: int) -> list[Point]:
-    """Return `samples` points spread over the box of each field's first and last value (two whole numbers: whole ones).
+    """Return `samples` points spread over the box of each field's first and last value (integers between two integers).
 
     McKay, Beckman, Conover, Technometrics 21 (1979), by scipy.stats.qmc.
 
@@ -89,7 +89,7 @@ def parse_vary(text: str) -> tuple[str, list[Any]]:
     """
     name, equals, values = text.partition("=")
     if not equals or not name.strip() or not values.strip():
-        raise ScenarioError(f"--vary {text}", "is no variation", "write field=1,2,3 or field=from:to:step")
+        raise ScenarioError(f"--vary {text}", "is not a variation", "write field=1,2,3 or field=from:to:step")
     return name.strip().replace("-", "_") if "." not in name else name.strip(), parse_values(values, f"--vary {text}")
 
 
@@ -143,8 +143,8 @@ def read_design(source: str) -> Design:
     }
     if empty := next((name for name, values in vary.items() if not values), None):
         raise ScenarioError(f"{source} vary.{empty}", "has no values", "give it one or more, or leave it out")
-    whole = {
-        name: _whole(source, name, table.get(name, default))
+    integers = {
+        name: _integer(source, name, table.get(name, default))
         for name, default in (("runs", 5), ("samples", 10), ("seed", 1))
     }
     mode = table.get("mode", "grid")
@@ -153,7 +153,7 @@ def read_design(source: str) -> Design:
     elif mode == "zip":
         varied = together(vary)
     elif mode == "latin-hypercube":
-        varied = latin_hypercube(vary, whole["samples"], whole["seed"])
+        varied = latin_hypercube(vary, integers["samples"], integers["seed"])
     else:
         raise ScenarioError(f"{source} mode", f"is {quoted(mode)}", "choose grid, zip or latin-hypercube")
     given = table.get("points", [{}])
@@ -167,16 +167,16 @@ def read_design(source: str) -> Design:
         raise ScenarioError(f"{source} scenario", f"is {quoted(base)}", 'name a preset or a file, such as "oceans2020"')
     if base not in presets():
         base = str(Path(source).resolve().parent / base)
-    return Design(base, tuple(points), whole["runs"])
+    return Design(base, tuple(points), integers["runs"])
 
 
 def _table(source: str, name: str, value: Any) -> dict[str, Any]:
     if not isinstance(value, dict):
-        raise ScenarioError(f"{source} {name}", f"{quoted(value)} is no table", f"write [{name}] and FIELD = VALUE")
+        raise ScenarioError(f"{source} {name}", f"{quoted(value)} is not a table", f"write [{name}] and FIELD = VALUE")
     return value
 
 
-def _whole(source: str, name: str, value: Any) -> int:
+def _integer(source: str, name: str, value: Any) -> int:
     least = 0 if name == "seed" else 1
     if type(value) is not int or not least <= value <= MOST_POINTS:
         raise ScenarioError(

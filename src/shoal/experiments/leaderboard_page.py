@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from shoal.core.errors import RecordError
-from shoal.core.files import write_whole
+from shoal.core.files import write_atomic
 from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.experiments.comparison import Condition, Standing
 from shoal.experiments.comparison_words import (
@@ -27,14 +27,14 @@ BEGIN, END = "<!-- shoal compare: begin -->", "<!-- shoal compare: end -->"
 
 
 def write_page(board: Leaderboard, file: Path, named: Sequence[str] = ()) -> None:
-    """Replace what is between the two markers of a page; a page that is not there is begun.
+    """Replace what is between the two markers of a page; a missing page is begun.
 
     Raises
     ------
     RecordError : the page has no markers, or cannot be read or written; it is as it was then
     """
     before, after = page_around(file, board.suite.name)
-    write_whole(file, f"{before}{BEGIN}\n{page_part(board, named)}\n{END}{after}".encode())
+    write_atomic(file, f"{before}{BEGIN}\n{page_part(board, named)}\n{END}{after}".encode())
 
 
 def page_around(file: Path, title: str) -> tuple[str, str]:
@@ -72,13 +72,13 @@ def page_part(board: Leaderboard, named: Sequence[str] = ()) -> str:
             standing_still(board),
             "## Condition by condition",
             family_text(f"all {board.shares.tests} comparisons of the tables below"),
-            *(_section(told, found) for told, found in conditions),
+            *(_section(condition, found) for condition, found in conditions),
         ]
     )
 
 
 def standing_still(board: Leaderboard) -> str:
-    """Say for every condition whom the motionless lattice beats, and to whom no difference is shown."""
+    """Say for every condition what the motionless lattice beats, and where no difference is shown."""
     ranked = sum(each.rank is not None for each in board.overall.standings)
     first = [each.name for each in board.shares.conditions if each.of(LATTICE).rank == 1]
     lines = [
@@ -88,8 +88,8 @@ def standing_still(board: Leaderboard) -> str:
     ]
     for condition in (board.overall, *board.shares.conditions):
         beaten, equal = (_names(condition, verdict) for verdict in ("worse", "no difference shown"))
-        told = [f"it beats {beaten}"] * bool(beaten) + [f"no difference is shown to {equal}"] * bool(equal)
-        lines.append(f"- **{condition.name}**: {'; '.join(told) or 'it neither beats nor equals any'}.")
+        sentences = [f"it beats {beaten}"] * bool(beaten) + [f"no difference is shown to {equal}"] * bool(equal)
+        lines.append(f"- **{condition.name}**: {'; '.join(sentences) or 'it neither beats nor equals any'}.")
     return "\n".join(lines)
 
 
@@ -120,12 +120,12 @@ def _overview(board: Leaderboard) -> str:
     return _markdown(head, rows)
 
 
-def _section(told: SuiteCondition, found: Condition) -> str:
-    whole = f" / {told.whole:g}" if told.whole != 1 else ""
+def _section(condition: SuiteCondition, found: Condition) -> str:
+    out_of = f" / {condition.out_of:g}" if condition.out_of != 1 else ""
     head = ["rank", "strategy", "share ± 95 %", "minus lattice", "adjusted p", "verdict"]
     rows = [[*_cells(each), each.verdict] for each in found.standings]
-    says = told.says[0].upper() + told.says[1:]
-    return f"### {told.name}\n\n{says}. Share: `{told.metric}`{whole}.\n\n{_markdown(head, rows)}"
+    says = condition.says[0].upper() + condition.says[1:]
+    return f"### {condition.name}\n\n{says}. Share: `{condition.metric}`{out_of}.\n\n{_markdown(head, rows)}"
 
 
 def _cells(each: Standing) -> list[str]:

@@ -13,7 +13,7 @@ SIGNIFICANT = 0.05  # of all true "no difference" in a table, the chance that an
 
 
 class Difference(NamedTuple):
-    """Mean difference of paired runs, its 95 % interval and two-sided p (None: cannot be told), number of pairs."""
+    """Mean difference of paired runs, its 95 % interval and two-sided p (None: undetermined), number of pairs."""
 
     mean: float
     ci95: tuple[float, float] | None

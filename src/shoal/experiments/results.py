@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from shoal.core.errors import MissingExtraError, ScenarioError
-from shoal.core.files import MARK, write_whole
+from shoal.core.files import MARK, write_atomic
 from shoal.core.version import VERSION
 from shoal.experiments.replicate import LIST_COLUMNS, Row
 from shoal.experiments.store import Store
@@ -79,7 +79,7 @@ def aggregate(rows: Sequence[Row], by: Sequence[str], metrics: Sequence[str] = t
     unknown = [name for name in by if rows and name not in rows[0]]
     if unknown:
         known = [name for name in rows[0] if name not in LIST_COLUMNS]
-        raise ScenarioError(f"--by {unknown[0]}", "is no column of this sweep", f"there are: {', '.join(known)}")
+        raise ScenarioError(f"--by {unknown[0]}", "is not a column of this sweep", f"there are: {', '.join(known)}")
     groups: dict[tuple[Any, ...], list[Row]] = {}
     for row in rows:
         if row["status"] == "done":
@@ -102,7 +102,7 @@ def to_csv(rows: Sequence[Row]) -> str:
 
 
 def write_parquet(rows: Sequence[Row], file: Path) -> None:
-    """Write rows to a parquet file, whole or not at all.
+    """Write rows to a parquet file, atomically.
 
     Raises
     ------
@@ -117,7 +117,7 @@ def write_parquet(rows: Sequence[Row], file: Path) -> None:
     stream = io.BytesIO()
     table = pa.Table.from_pylist(list(rows))
     pq.write_table(table.replace_schema_metadata({MARK: VERSION}), stream)
-    write_whole(file, stream.getvalue(), ours=True)
+    write_atomic(file, stream.getvalue(), ours=True)
 
 
 def seal(folder: Path, rows: Sequence[Row]) -> Path:
@@ -126,7 +126,7 @@ def seal(folder: Path, rows: Sequence[Row]) -> Path:
     It holds what a rerun reproduces, so an interrupted and resumed sweep ends with the same bytes.
     """
     file = folder / "results.csv"
-    write_whole(file, to_csv(rows).encode())
+    write_atomic(file, to_csv(rows).encode())
     return file
 
 

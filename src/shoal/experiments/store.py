@@ -2,7 +2,7 @@
 
 SQLite in WAL mode loses nothing that it has acknowledged, whatever is killed, and every language reads it
 (docs/decisions/0003-store.md). Numbers that a rerun reproduces are in `runs`; when and how long is in `timing`.
-Every row has a checksum, and so has the whole (store_rows.py): what was damaged later is refused.
+Every row has a checksum, and so has the store (store_rows.py): what was damaged later is refused.
 """
 
 import json
@@ -43,7 +43,7 @@ class Store:
 
     Parameters
     ----------
-    folder : where it is or shall be
+    folder : where it is or will be
     identity : what the sweep runs; a store made by another sweep refuses it
     read_only : look only, needs no identity
 
@@ -173,7 +173,7 @@ class Store:
         return self._database
 
     def _make(self, own: OwnFolder) -> None:
-        """Make an empty store, whole or not at all, where there is none."""
+        """Make an empty store, atomically, where there is none."""
         file = own.place / "runs.sqlite"
         if file.exists():
             return

@@ -96,7 +96,7 @@ def check_tables(database: sqlite3.Connection) -> None:
 
     Raises
     ------
-    ValueError : it is none of ours
+    ValueError : it is not one of ours
     """
     kinds = {(each["type"], each["tbl_name"]) for each in database.execute("SELECT type, tbl_name FROM sqlite_master")}
     tables = {name for kind, name in kinds if kind == "table"}
@@ -173,7 +173,7 @@ def read_meta(database: sqlite3.Connection, where: str) -> Meta:
             raise ValueError("what it says of the sweep is not what was written")
     fields = identity["fields"]
     if not isinstance(fields, list) or not all(isinstance(each, str) for each in fields):
-        raise ValueError("the fields that it varies are no names")
+        raise ValueError("the fields that it varies are not names")
     return Meta(layout, identity)
 
 
@@ -235,7 +235,7 @@ def read_row(stored: dict[str, Any], meta: Meta, columns: Columns) -> Row:
     for name in LIST_COLUMNS:
         row[name] = json.loads(row.get(name) or "null")
         if not isinstance(row[name], list if row["status"] == "done" and name in stored else type(None)):
-            raise ValueError(f"{who}: {name} is no list")
+            raise ValueError(f"{who}: {name} is not a list")
     row = {name: value for name, value in row.items() if name not in columns.unknown}
     return {**{field: point.get(field) for field in meta.identity["fields"]}, **row}
 
@@ -251,6 +251,6 @@ def _sum_of_row(row: dict[str, Any], added: Collection[str]) -> str:
 
 
 def _sum_of(values: dict[str, Any]) -> str:
-    """SHA-256 of a row's values but for its checksum."""
+    """SHA-256 of a row's values, its checksum excepted."""
     rest = {name: value for name, value in values.items() if name != "checksum"}
     return hashlib.sha256(json.dumps(rest, sort_keys=True, separators=(",", ":")).encode()).hexdigest()

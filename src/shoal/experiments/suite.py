@@ -11,12 +11,12 @@ from typing import Any
 from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.core.files import check_folder
 from shoal.experiments.cells import Cell, make_cells
-from shoal.experiments.compare import comparison_design, run_comparison, values_of
 from shoal.experiments.comparison import Values
 from shoal.experiments.contenders import Contender
 from shoal.experiments.design import Point
 from shoal.experiments.executors import Executor
 from shoal.experiments.replicate import Row
+from shoal.experiments.run_comparison import comparison_design, run_comparison, values_of
 from shoal.experiments.sweep import Progress
 
 Found = dict[str, dict[str, list[Row | None]]]  # by condition and strategy, the row of each run
@@ -24,12 +24,12 @@ Found = dict[str, dict[str, list[Row | None]]]  # by condition and strategy, the
 
 @dataclass(frozen=True)
 class SuiteCondition:
-    """One condition: changes to the suite's scenario, and the metric / whole, a share of 0 to 1, that counts there."""
+    """One condition: changes to the suite's scenario, and the metric / out_of, a share of 0 to 1, that counts there."""
 
     name: str
     says: str
     metric: str
-    whole: float = 1.0
+    out_of: float = 1.0
     changes: Point = field(default_factory=dict)
 
     @property
@@ -104,7 +104,7 @@ def run_suite(
 ) -> Found:
     """Run what is missing, a sweep in a folder of its own for each condition; return every run's row.
 
-    `begin` is called with the name of each condition, `report` after every run with how far the whole suite is.
+    `begin` is called with the name of each condition, `report` after every run with how far the suite is.
 
     Raises
     ------
@@ -127,7 +127,7 @@ def run_suite(
 def suite_values(suite: Suite, found: Found) -> dict[str, tuple[Point, Values]]:
     """Return what counts under each condition, a share of 0 to 1 in every run."""
     return {
-        each.name: (each.changes, values_of(found[each.name], each.metric, each.whole)) for each in suite.conditions
+        each.name: (each.changes, values_of(found[each.name], each.metric, each.out_of)) for each in suite.conditions
     }
 
 

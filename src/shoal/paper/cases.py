@@ -117,7 +117,7 @@ def worst(cases: Sequence[Case], aim: float | None = None) -> Case:
     return min(known, key=lambda case: case.number.value if aim is None else -abs(case.number.value - aim))
 
 
-def told(case: Case, unit: str = "", digits: int = 1) -> str:
+def case_text(case: Case, unit: str = "", digits: int = 1) -> str:
     """ "20.3 [19.8, 20.9] (mixed, 3 m/s)"."""
     return f"{told_number(case.number, digits)}{unit} ({case.name})"
 

@@ -10,17 +10,18 @@ from itertools import pairwise
 
 import numpy as np
 
+from shoal.experiments.replicate import Row
 from shoal.paper.cases import (
     Case,
     Truth,
     about,
+    case_text,
     count,
     judge,
     judged,
     percent,
     positive,
     rising,
-    told,
     told_number,
     verdict_of,
     within,
@@ -28,11 +29,11 @@ from shoal.paper.cases import (
 )
 from shoal.paper.clusters import Episode
 from shoal.paper.curves import (
-    Curve,
     Floats,
     Interval,
-    Metric,
+    Measured,
     Peak,
+    RunCurve,
     bootstrap,
     cells,
     curve,
@@ -44,11 +45,11 @@ from shoal.paper.curves import (
     values_of,
 )
 from shoal.paper.plan import AGENTS, FULL_STEPS, MIXED, SHARE_NEIGHBORS, START_PLACES
-from shoal.paper.results import Claim, Row
+from shoal.paper.results import Claim
 
 SAME = 0.01  # a difference in time on target that does not matter
 SPREAD, SPREAD_DIGIT = 0.003, 0.0005  # C13: 0.3 %, and half of its last digit
-FEW_CASES = 4  # are told one by one
+FEW_CASES = 4  # are listed one by one
 SEEDS = 5  # of the paper
 SWARMS = {MIXED: "mixed", 0: "all slow"}
 STATEMENTS = {
@@ -140,7 +141,7 @@ def c6(rows: Sequence[Row]) -> Claim:
 def c7(rows: Sequence[Row]) -> Claim:
     """Cases: rise of the normalized Xi from no to all fast buoys (least squares), at each k up to 30 and speed."""
 
-    def cases_of(metric: Metric) -> list[Case]:
+    def cases_of(metric: Measured) -> list[Case]:
         shares = _shares([row for row in rows if row["neighbors"] <= 30], metric)
         return rising({place: AGENTS * slopes(each) for place, each in shares.items()})
 
@@ -168,7 +169,7 @@ def c9(rows: Sequence[Row]) -> Claim:
 
     speeds = values_of(rows, "target_speed")
 
-    def cases_of(metric: Metric, factor: float) -> list[Case]:
+    def cases_of(metric: Measured, factor: float) -> list[Case]:
         more: dict[str, Floats] = {}
         for fast, swarm in SWARMS.items():
             slow, quick = (curve(rows, metric, fast=fast, target_speed=speed) for speed in (speeds[0], speeds[-1]))
@@ -184,7 +185,7 @@ def c9(rows: Sequence[Row]) -> Claim:
 def c10(rows: Sequence[Row]) -> Claim:
     """Cases: stationary agents of the mixed less of the all-slow swarm at k = 20, at each speed."""
 
-    def cases_of(metric: Metric, factor: float) -> list[Case]:
+    def cases_of(metric: Measured, factor: float) -> list[Case]:
         gains = {speed: _gain(rows, speed, metric) for speed in values_of(rows, "target_speed")}
         return rising({f"{speed:g} m/s": factor * gain.at(20) for speed, gain in gains.items() if 20 in gain.x})
 
@@ -225,12 +226,12 @@ def c12(episodes: Sequence[Episode]) -> Claim:
 
 
 def c13(rows: Sequence[Row], steps: int) -> Claim:
-    """Cases: the spread over runs / mean, in the median cell, of time on target and of Xi, at most 0.3 % as told with
-    one digit. The paper does not say which spread, so both of: standard deviation, and standard error of five runs.
+    """Cases: the spread over runs / mean, in the median cell, of time on target and of Xi, at most 0.3 % to one
+    digit. The paper does not say which spread, so both of: standard deviation, and standard error of five runs.
     Undecided for runs shorter than the claim's.
     """
     cases, notes = [], []
-    told_by: dict[str, Metric] = {
+    told_by: dict[str, Measured] = {
         "time on target": "time_on_target",
         "Xi": "xi",
         "agents with phi > 0.7": heading_there,
@@ -245,7 +246,7 @@ def c13(rows: Sequence[Row], steps: int) -> Claim:
         for kind, number in (("deviation", deviation), ("error", deviation.times(SEEDS**-0.5))):
             case = judged(f"{name}, {kind}", number, _spread if steps >= FULL_STEPS else _untold)
             cases += percent([case])
-    listed = "; ".join(told(case, " %", 2) for case in cases)
+    listed = "; ".join(case_text(case, " %", 2) for case in cases)
     measured = (
         f"spread over runs of {steps:,} steps / mean, in the median cell, as standard deviation and as standard error "
         f"of {SEEDS} runs: {listed}; {'; '.join(notes)}"
@@ -302,23 +303,23 @@ def _claim(
     """A claim from its cases; `text` has a place for the worst of them, or for all where they are few."""
     key = worst(cases, aim)
     shown = cases if 0 < len(cases) <= FEW_CASES else [key]
-    listed = "; ".join(told(case, digits=digits) for case in shown)
+    listed = "; ".join(case_text(case, digits=digits) for case in shown)
     rest = "" if len(shown) == len(cases) else f"; {count(cases)}"
     measured = f"{text.format(listed)}{rest}{note}"
     return Claim(id_, STATEMENTS[id_], measured, *key.number, unit, verdict_of(cases), figure, *count(cases))
 
 
-def _peak(rows: Sequence[Row], metric: Metric, fast: int, speed: float) -> Peak:
+def _peak(rows: Sequence[Row], metric: Measured, fast: int, speed: float) -> Peak:
     return peak(curve(rows, metric, fast=fast, target_speed=speed))
 
 
-def _gain(rows: Sequence[Row], speed: float, metric: Metric = "time_on_target", fast: int = MIXED) -> Curve:
+def _gain(rows: Sequence[Row], speed: float, metric: Measured = "time_on_target", fast: int = MIXED) -> RunCurve:
     """What fast buoys change over k, seed by seed."""
     mixed, slow = (curve(rows, metric, fast=count, target_speed=speed) for count in (fast, 0))
     return mixed.minus(slow)
 
 
-def _shares(rows: Sequence[Row], metric: Metric) -> dict[str, Curve]:
+def _shares(rows: Sequence[Row], metric: Measured) -> dict[str, RunCurve]:
     """The curves over the number of fast buoys, where two or more were run in either half."""
     curves = {
         _place(k, speed): curve(rows, metric, "fast", neighbors=k, target_speed=speed)

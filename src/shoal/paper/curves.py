@@ -10,15 +10,15 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from shoal.experiments.replicate import Row
 from shoal.metrics.heading_bearing import CENTERS
 from shoal.metrics.summary import ANYTHING, METRICS, Bounds, bounds_of
 from shoal.paper.peaks import tops
 from shoal.paper.plan import AGENTS
-from shoal.paper.results import Row
 from shoal.record.statistics import estimate, inside, t_quantile
 
 Floats = npt.NDArray[np.float64]
-Metric = str | Callable[[Row], float]  # a column, or a number made of a row
+Measured = str | Callable[[Row], float]  # a column, or a number made of a row
 
 DRAWS = 2000  # bootstrap
 FEW = 4  # with fewer seeds the spread is pooled over cases
@@ -28,7 +28,7 @@ _SMALLEST = 1e-3  # error of a curve's points, relative to its range: equal runs
 
 
 class Interval(NamedTuple):
-    """A number and its 95 % interval; NaN bounds where it cannot be told."""
+    """A number and its 95 % interval; NaN bounds where it cannot be determined."""
 
     value: float
     low: float
@@ -40,7 +40,7 @@ class Interval(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Curve:
+class RunCurve:
     """A metric at places x (K,) in each seed's run (R, K). Column k of two curves shares its chance run by run."""
 
     x: Floats
@@ -70,16 +70,16 @@ class Curve:
         values: Floats = self.runs[:, places[0]]
         return values
 
-    def between(self, low: float, high: float) -> "Curve":
+    def between(self, low: float, high: float) -> "RunCurve":
         """The part with low <= x <= high."""
         inside = (self.x >= low) & (self.x <= high)
-        return Curve(self.x[inside], self.runs[:, inside], self.bounds)
+        return RunCurve(self.x[inside], self.runs[:, inside], self.bounds)
 
-    def minus(self, other: "Curve") -> "Curve":
+    def minus(self, other: "RunCurve") -> "RunCurve":
         """The paired difference at the places that both have."""
         x, mine, its = np.intersect1d(self.x, other.x, return_indices=True)
         seeds = min(len(self.runs), len(other.runs))
-        return Curve(x, self.runs[:seeds, mine] - other.runs[:seeds, its])
+        return RunCurve(x, self.runs[:seeds, mine] - other.runs[:seeds, its])
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ class Peak:
     at_edge: bool
 
 
-def curve(rows: Iterable[Row], metric: Metric, along: str = "neighbors", **where: object) -> Curve:
+def curve(rows: Iterable[Row], metric: Measured, along: str = "neighbors", **where: object) -> RunCurve:
     """Return a metric over the field `along`, of the finished runs whose fields have the values `where`.
 
     Only seeds that every place has are kept, so that columns pair.
@@ -105,7 +105,7 @@ def curve(rows: Iterable[Row], metric: Metric, along: str = "neighbors", **where
     x = sorted(cells)
     seeds = sorted(set.intersection(*(set(cell) for cell in cells.values()))) if cells else []
     runs = np.array([[cells[at][seed] for at in x] for seed in seeds]).reshape(len(seeds), len(x))
-    return Curve(np.array(x), runs, bounds_of(metric, agents=AGENTS) if metric in METRICS else ANYTHING)
+    return RunCurve(np.array(x), runs, bounds_of(metric, agents=AGENTS) if metric in METRICS else ANYTHING)
 
 
 def heading_there(row: Row) -> float:
@@ -118,7 +118,7 @@ def heading_nowhere(row: Row) -> float:
     return float(row["phi_histogram"][len(CENTERS) // 2])
 
 
-def cells(rows: Iterable[Row], metric: Metric) -> list[Floats]:
+def cells(rows: Iterable[Row], metric: Measured) -> list[Floats]:
     """The values in all seeds of each combination of fast, neighbors and target_speed that has two or more."""
     found: dict[tuple[object, ...], list[float]] = {}
     for row in rows:
@@ -160,14 +160,14 @@ def degrees_of_freedom(cases: Sequence[Floats]) -> list[int]:
     return [(sizes.count(size) if 2 <= size < FEW else 1) * (size - 1) for size in sizes]
 
 
-def slopes(of: Curve) -> Floats:
+def slopes(of: RunCurve) -> Floats:
     """Least-squares slope over x of every seed's curve, (R,)."""
     centered = of.x - of.x.mean()
     slope: Floats = of.runs @ centered / (centered @ centered)
     return slope
 
 
-def peak(of: Curve, draws: int = DRAWS) -> Peak:
+def peak(of: RunCurve, draws: int = DRAWS) -> Peak:
     """Return the place and the height of a curve's maximum, by draws from the smooth curves that fit it (peaks.tops).
 
     Near its top a curve is flat, so the highest point is largely luck: its place varies by one k between repetitions of
@@ -181,7 +181,7 @@ def peak(of: Curve, draws: int = DRAWS) -> Peak:
 
 @lru_cache(maxsize=1024)  # several claims ask for the same peak, which takes a tenth of a second
 def _peak(x: bytes, runs: bytes, shape: tuple[int, int], draws: int) -> Peak:
-    of = Curve(np.frombuffer(x), np.frombuffer(runs).reshape(shape))
+    of = RunCurve(np.frombuffer(x), np.frombuffer(runs).reshape(shape))
     seeds, places = shape
     if places < 4 or seeds == 0:
         return Peak(_UNKNOWN, _UNKNOWN, np.full(draws, np.nan), at_edge=False)
@@ -226,7 +226,7 @@ def _around(value: float, draws: Floats) -> Interval:
 def _errors(runs: Floats, draws: int) -> tuple[float, Floats]:
     """Standard error of a point, and mean errors of made-up sets of seeds, (draws, K).
 
-    What all points of a seed share moves no peak: it is no part of the error, but of the draws.
+    What all points of a seed share moves no peak: it is not part of the error, but of the draws.
     """
     seeds, places = runs.shape
     if seeds == 1:  # from how far points lie off the line between their neighbors

@@ -7,6 +7,7 @@ import numpy as np
 
 from shoal.drawing.legend import headroom
 from shoal.drawing.style import FLEET_COLORS, INK, new_figure, style
+from shoal.experiments.replicate import Row
 from shoal.paper.figures_peaks import PeakMark, peak_of
 from shoal.paper.figures_series import (
     ALL_SLOW,
@@ -24,7 +25,7 @@ from shoal.paper.figures_series import (
     where,
 )
 from shoal.paper.plan import AGENTS, MIXED
-from shoal.paper.results import Figure, Row
+from shoal.paper.results import Figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -182,8 +183,8 @@ def _capital(text: str) -> str:
 
 
 def _several(noun: str, values: Sequence[Any]) -> str:
-    told = ", ".join(str(value) for value in values)
-    return f"{noun} = {told}" if noun == "k" else f"{noun}{'s' if len(values) > 1 else ''} ({'; '.join(values)})"
+    listed = ", ".join(str(value) for value in values)
+    return f"{noun} = {listed}" if noun == "k" else f"{noun}{'s' if len(values) > 1 else ''} ({'; '.join(values)})"
 
 
 def _speeds(speeds: Sequence[float]) -> str:

@@ -4,7 +4,8 @@ import math
 from typing import TYPE_CHECKING
 
 from shoal.drawing.style import FLEET_COLORS, GRAY, INK, TARGET, new_figure, style
-from shoal.paper.results import Figure, Row
+from shoal.experiments.replicate import Row
+from shoal.paper.results import Figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,6 +8,7 @@ import numpy.typing as npt
 
 from shoal.drawing.histogram import draw_phi_bars, label_phi
 from shoal.drawing.style import INK, new_figure, style
+from shoal.experiments.replicate import Row
 from shoal.metrics.heading_bearing import CENTERS
 from shoal.metrics.summary import Bounds
 from shoal.paper.curves import intervals
@@ -22,7 +23,7 @@ from shoal.paper.figures_series import (
     where,
 )
 from shoal.paper.plan import AGENTS, MIXED
-from shoal.paper.results import Figure, Row
+from shoal.paper.results import Figure
 from shoal.record.frames import PHI_EDGES
 
 if TYPE_CHECKING:

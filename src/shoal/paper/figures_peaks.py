@@ -5,10 +5,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from shoal.experiments.replicate import Row
 from shoal.paper.cases import told_number
 from shoal.paper.curves import Interval, curve, peak
 from shoal.paper.figures_series import Quantity
-from shoal.paper.results import Row
 
 
 @dataclass(frozen=True)

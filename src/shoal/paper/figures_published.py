@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shoal.drawing.style import FLEET_COLORS, GRAY, TARGET, new_figure, style
+from shoal.experiments.replicate import Row
 from shoal.paper.figures_series import (
     DOUBLE,
     RESPONSE,
@@ -19,7 +20,7 @@ from shoal.paper.figures_series import (
     series,
     show_means,
 )
-from shoal.paper.results import Figure, Row
+from shoal.paper.results import Figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

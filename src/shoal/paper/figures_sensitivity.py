@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from shoal.drawing.style import FLEET_COLORS, new_figure, style
+from shoal.experiments.replicate import Row
 from shoal.paper.figures_peaks import peak_of
 from shoal.paper.figures_series import (
     ALL_SLOW,
@@ -17,7 +18,7 @@ from shoal.paper.figures_series import (
     where,
 )
 from shoal.paper.plan import MIXED
-from shoal.paper.results import Figure, Row
+from shoal.paper.results import Figure
 
 _SWARMS = {MIXED: (FLEET_COLORS[0], "o", 0.17), ALL_SLOW: (FLEET_COLORS[2], "s", -0.17)}
 _PANELS: tuple[tuple[Quantity, str, str], ...] = (

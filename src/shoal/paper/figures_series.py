@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shoal.drawing.curves import Curve, draw_curve
+from shoal.experiments.replicate import Row
 from shoal.metrics.summary import Bounds
 from shoal.paper.curves import FEW, intervals
 from shoal.paper.plan import AGENTS
-from shoal.paper.results import Row
 from shoal.scenario.edit import SHORTHANDS
 
 if TYPE_CHECKING:

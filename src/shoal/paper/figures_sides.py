@@ -4,10 +4,11 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from shoal.drawing.style import FLEET_COLORS, new_figure, style
+from shoal.experiments.replicate import Row
 from shoal.paper.curves import curve, intervals, values_of
 from shoal.paper.figures_series import DOUBLE
 from shoal.paper.plan import MIXED
-from shoal.paper.results import Figure, Row
+from shoal.paper.results import Figure
 from shoal.paper.side_plan import BASE
 
 if TYPE_CHECKING:

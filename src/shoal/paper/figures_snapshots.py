@@ -7,8 +7,9 @@ import numpy as np
 from shoal.drawing.snapshot import draw_snapshot
 from shoal.drawing.style import FLEET_COLORS, GRAY, INK, new_figure, style
 from shoal.drawing.words import count
+from shoal.experiments.replicate import Row
 from shoal.paper.figures_series import DOUBLE
-from shoal.paper.results import Figure, Row
+from shoal.paper.results import Figure
 from shoal.paper.snapshots import Clustering, Locked, find_clustering, find_locked
 from shoal.record.record import Record
 from shoal.scenario.choices import speed_of

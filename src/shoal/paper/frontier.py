@@ -3,7 +3,8 @@
 from collections.abc import Mapping
 from itertools import permutations
 
-from shoal.paper.results import Claim, Row
+from shoal.experiments.replicate import Row
+from shoal.paper.results import Claim
 from shoal.paper.statements import Verdicts, statements_of, verdict_on
 
 

@@ -1,6 +1,6 @@
 """Where a noisy curve is highest: draws from all smooth curves that fit its points, their smoothness learned from them.
 
-A polynomial through the points near the top would have to be told how smooth the curve is: where a curve rises and
+A polynomial through the points near the top would need to know how smooth the curve is: where a curve rises and
 falls unequally, it finds a place beside the true one, by an error that no interval of it knows of. A Gaussian process
 says how far the curve can bend between the points, so its draws hold both, noise and bend.
 Rasmussen, Williams, "Gaussian Processes for Machine Learning" (2006), chapters 2 and 5.

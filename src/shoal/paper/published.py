@@ -10,9 +10,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from shoal.paper.cases import Case, count, told, verdict_of
+from shoal.experiments.replicate import Row
+from shoal.paper.cases import Case, case_text, count, verdict_of
 from shoal.paper.curves import Floats, Interval, curve, intervals
-from shoal.paper.results import Claim, Row
+from shoal.paper.results import Claim
 from shoal.record.statistics import t_quantile
 
 PRESET = "aamas2020"
@@ -86,7 +87,7 @@ def published_claims(table: Sequence[Row]) -> list[Claim]:
                 Claim(
                     id_,
                     f"The published {name} over k is met {bar}, or within the spread of runs.",
-                    f"the largest residual is {told(largest, digits=4)}; {count(cases)}",
+                    f"the largest residual is {case_text(largest, digits=4)}; {count(cases)}",
                     *largest.number,
                     unit,
                     verdict_of(cases),

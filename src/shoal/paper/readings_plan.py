@@ -13,7 +13,7 @@ _SHARES = (30, 50)
 
 
 @dataclass(frozen=True)
-class Stage:
+class Trial:
     """Length of the runs, seeds, and where clusters are watched for [steps]."""
 
     name: str
@@ -26,22 +26,22 @@ class Stage:
         return self.steps // 2 if reading.sequential and self.name == "screen" else self.steps
 
 
-SCREEN, FINAL = Stage("screen", 10_000, 2), Stage("final", FULL_STEPS, 5)
-SCREEN_QUICK, FINAL_QUICK = Stage("screen", 1_000, 2, (10, 20, 30, 40, 49)), Stage("final", 2_000, 2)
+SCREEN, FINAL = Trial("screen", 10_000, 2), Trial("final", FULL_STEPS, 5)
+SCREEN_QUICK, FINAL_QUICK = Trial("screen", 1_000, 2, (10, 20, 30, 40, 49)), Trial("final", 2_000, 2)
 
 
-def groups_of(reading: Reading, stage: Stage) -> list[Group]:
+def groups_of(reading: Reading, trial: Trial) -> list[Group]:
     """The curves over k and a few shares of fast buoys, and other starts of the fast fleet; both target speeds."""
     main = [
-        *grid({"target_speed": SPEEDS, "fast": [MIXED, 0], "neighbors": stage.neighbors}),
+        *grid({"target_speed": SPEEDS, "fast": [MIXED, 0], "neighbors": trial.neighbors}),
         *grid({"target_speed": SPEEDS, "fast": _SHARES, "neighbors": SHARE_NEIGHBORS}),
     ]
     placement = grid({"target_speed": SPEEDS, "fast": [MIXED], "neighbors": [20], "fleets.BoB-1.start": START_PLACES})
-    changes: Point = {**reading.changes, "steps": stage.steps_of(reading)}
+    changes: Point = {**reading.changes, "steps": trial.steps_of(reading)}
     return [
         Group(
-            f"{stage.name}/{reading.slug}/{part}",
-            Design("oceans2020", distinct(points), stage.seeds),
+            f"{trial.name}/{reading.slug}/{part}",
+            Design("oceans2020", distinct(points), trial.seeds),
             changes,
             {"reading": reading.name},
         )

@@ -4,12 +4,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from shoal.experiments.replicate import Row
 from shoal.paper.clusters import Episode, watch_clusters
 from shoal.paper.frontier import frontier_table
 from shoal.paper.plan import QUICK_STEPS, SPEEDS, Group, Plan
 from shoal.paper.readings import Reading, printed, readings
-from shoal.paper.readings_plan import FINAL, FINAL_QUICK, FINALISTS, SCREEN, SCREEN_QUICK, Stage, groups_of
-from shoal.paper.results import Reproduction, Row
+from shoal.paper.readings_plan import FINAL, FINAL_QUICK, FINALISTS, SCREEN, SCREEN_QUICK, Trial, groups_of
+from shoal.paper.results import Reproduction
 from shoal.paper.running import Report, run_plan
 from shoal.paper.sensitivity import peak_table
 from shoal.paper.statements import Verdicts, holding, judge_statements, score, statements_of, verdict_on
@@ -19,10 +20,10 @@ STUDY = "oceans2020-readings"
 
 @dataclass(frozen=True)
 class Scored:
-    """A reading as a stage judges it."""
+    """A reading as a trial judges it."""
 
     reading: Reading
-    stage: Stage
+    trial: Trial
     found: Verdicts
     rows: list[Row]
 
@@ -30,7 +31,7 @@ class Scored:
     def peaks(self) -> list[Row]:
         """Where its curves over k peak."""
         table = peak_table([{**row, "variant": self.reading.name} for row in self.rows])
-        return [{"reading": row.pop("variant"), "stage": self.stage.name, **row} for row in table]
+        return [{"reading": row.pop("variant"), "trial": self.trial.name, **row} for row in table]
 
     @property
     def order(self) -> tuple[float, float, int]:
@@ -91,7 +92,7 @@ def readings_table(scored: Sequence[Scored], chosen: Reading) -> list[Row]:
 
 
 def score_table(screened: Sequence[Scored], finals: Sequence[Scored], chosen: Reading) -> list[Row]:
-    """One row per reading and stage: length and seeds, the verdict on every statement, how many hold, the score."""
+    """One row per reading and trial: length and seeds, the verdict on every statement, how many hold, the score."""
     finalists = {each.reading.name for each in finals}
     table: list[Row] = []
     for each in (*finals, *sorted(screened, key=lambda one: (-score(one.found), one.order))):
@@ -99,9 +100,9 @@ def score_table(screened: Sequence[Scored], finals: Sequence[Scored], chosen: Re
         table.append(
             {
                 "reading": each.reading.name,
-                "stage": each.stage.name,
-                "steps": each.stage.steps_of(each.reading),
-                "seeds": each.stage.seeds,
+                "trial": each.trial.name,
+                "steps": each.trial.steps_of(each.reading),
+                "seeds": each.trial.seeds,
                 **verdicts,
                 "hold": holding(each.found),
                 "do_not": list(verdicts.values()).count("does not hold"),
@@ -122,21 +123,21 @@ def _finalists(screened: Sequence[Scored]) -> list[Reading]:
 
 
 def _run(
-    chosen: Sequence[Reading], stage: Stage, out: Path, quick: bool, jobs: int | None, report: Report | None
+    chosen: Sequence[Reading], trial: Trial, out: Path, quick: bool, jobs: int | None, report: Report | None
 ) -> list[Scored]:
-    """Run a stage for these readings, and judge each."""
-    groups: list[Group] = [group for reading in chosen for group in groups_of(reading, stage)]
-    rows = run_plan(Plan(STUDY, quick, stage.steps, stage.seeds, tuple(groups)), out, jobs, report)
+    """Run a trial for these readings, and judge each."""
+    groups: list[Group] = [group for reading in chosen for group in groups_of(reading, trial)]
+    rows = run_plan(Plan(STUDY, quick, trial.steps, trial.seeds, tuple(groups)), out, jobs, report)
     scored = []
     for reading in chosen:
-        main, placement = (rows[f"{stage.name}/{reading.slug}/{part}"] for part in ("main", "placement"))
-        steps = stage.steps_of(reading)
-        found = judge_statements(main, placement, _episodes(reading, stage), steps)
-        scored.append(Scored(reading, stage, found, main))
+        main, placement = (rows[f"{trial.name}/{reading.slug}/{part}"] for part in ("main", "placement"))
+        steps = trial.steps_of(reading)
+        found = judge_statements(main, placement, _episodes(reading, trial), steps)
+        scored.append(Scored(reading, trial, found, main))
     return scored
 
 
-def _episodes(reading: Reading, stage: Stage) -> dict[float, list[Episode]]:
+def _episodes(reading: Reading, trial: Trial) -> dict[float, list[Episode]]:
     """Clusters of the fast buoys at each target speed; runs of up to 20,000 steps, as many as seeds."""
-    steps = min(stage.steps_of(reading), QUICK_STEPS)
-    return {speed: watch_clusters(steps, stage.seeds, (speed,), reading.changes) for speed in SPEEDS}
+    steps = min(trial.steps_of(reading), QUICK_STEPS)
+    return {speed: watch_clusters(steps, trial.seeds, (speed,), reading.changes) for speed in SPEEDS}

@@ -10,10 +10,11 @@ from dataclasses import asdict, fields
 from pathlib import Path
 
 from shoal.core.errors import RecordError
-from shoal.core.files import write_whole
+from shoal.core.files import write_atomic
 from shoal.drawing.files import save_figure
+from shoal.experiments.replicate import Row
 from shoal.paper.report_page import Picture, page
-from shoal.paper.results import Claim, Figure, Reproduction, Row
+from shoal.paper.results import Claim, Figure, Reproduction
 
 LARGEST_SVG = 300_000  # [B] an SVG over this size is inlined as PNG
 
@@ -34,11 +35,11 @@ def write_report(reproduction: Reproduction, out: str | Path) -> Path:
     _make(folder / "data")
     pictures = [_write_figure(figure, folder) for figure in reproduction.figures]
     for name, rows in reproduction.tables.items():
-        write_whole(folder / "data" / f"table_{name}.csv", to_csv(rows).encode())
-    write_whole(folder / "claims.csv", _claims_csv(reproduction).encode())
-    write_whole(folder / "command.txt", _command_text(reproduction).encode())
+        write_atomic(folder / "data" / f"table_{name}.csv", to_csv(rows).encode())
+    write_atomic(folder / "claims.csv", _claims_csv(reproduction).encode())
+    write_atomic(folder / "command.txt", _command_text(reproduction).encode())
     report = folder / "report.html"
-    write_whole(report, page(reproduction, pictures, _stores(folder)).encode())
+    write_atomic(report, page(reproduction, pictures, _stores(folder)).encode())
     return report
 
 
@@ -57,7 +58,7 @@ def _write_figure(figure: Figure, folder: Path) -> Picture:
     svg, png = (folder / "figures" / f"{figure.name}.{kind}" for kind in ("svg", "png"))
     save_figure(figure.figure, svg)
     save_figure(figure.figure, png)
-    write_whole(folder / "data" / f"{figure.name}.csv", to_csv(figure.data).encode())
+    write_atomic(folder / "data" / f"{figure.name}.csv", to_csv(figure.data).encode())
     try:
         kind, content = ("svg+xml", svg.read_bytes())
         if len(content) > LARGEST_SVG:

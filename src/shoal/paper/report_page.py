@@ -55,22 +55,22 @@ def _summary(reproduction: Reproduction) -> str:
     """How many claims hold, under each reading."""
     if not reproduction.claims:
         return ""
-    told = f"Of {len(reproduction.claims)} claims of the paper, tested with 95 % intervals"
+    text = f"Of {len(reproduction.claims)} claims of the paper, tested with 95 % intervals"
     if not reproduction.refit_claims:
-        return _tiles(f"{told}:", reproduction.claims)
+        return _tiles(f"{text}:", reproduction.claims)
     differ = [
         one.id
         for one, other in zip(reproduction.claims, reproduction.refit_claims, strict=True)
         if one.verdict != other.verdict
     ]
     return (
-        _tiles(f"{told}, with the paper as printed (oceans2020):", reproduction.claims)
+        _tiles(f"{text}, with the paper as printed (oceans2020):", reproduction.claims)
         + _tiles("and in the reading that meets most of it (oceans2020-refit):", reproduction.refit_claims)
         + f"<p>Verdicts that depend on the reading: {', '.join(differ) or 'none'}.</p>\n"
     )
 
 
-def _tiles(told: str, claims: Sequence[Claim]) -> str:
+def _tiles(text: str, claims: Sequence[Claim]) -> str:
     """A count for each verdict."""
     counts = Counter(str(claim.verdict) for claim in claims)
     tiles = "".join(
@@ -78,7 +78,7 @@ def _tiles(told: str, claims: Sequence[Claim]) -> str:
         f"{escape(verdict)}</span></li>"
         for verdict, (sign, name) in BADGES.items()
     )
-    return f'<p>{escape(told)}</p>\n<ul class="counts">{tiles}</ul>\n'
+    return f'<p>{escape(text)}</p>\n<ul class="counts">{tiles}</ul>\n'
 
 
 def _facts(reproduction: Reproduction) -> str:
@@ -147,8 +147,8 @@ def _data(reproduction: Reproduction, pictures: Sequence[Picture], stores: Seque
     if reproduction.tables:
         kinds.append("data/table_NAME.csv: the tables of this page")
     if stores:
-        told = ", ".join(f"<code>{escape(store)}</code>" for store in stores)
-        kinds.append(f"the raw data, one row per run in runs.sqlite, in: {told}")
+        text = ", ".join(f"<code>{escape(store)}</code>" for store in stores)
+        kinds.append(f"the raw data, one row per run in runs.sqlite, in: {text}")
     items = "".join(f"<li>{kind}</li>" for kind in kinds)
     return (
         f"<p>The same command gives the same numbers, bit for bit; an interrupted one resumes.</p>\n{command}"

@@ -6,8 +6,9 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
+from shoal.experiments.replicate import Row
 from shoal.paper.report_words import COLUMNS, METRICS
-from shoal.paper.results import Claim, Row
+from shoal.paper.results import Claim
 
 BADGES = {  # a sign and a class for each verdict: color is never the only one
     "holds": ("\u2713", "holds"),
@@ -93,13 +94,13 @@ def data_table(rows: Sequence[Row], title: str) -> str:
     shown = [name for name in names if name not in bounds]
     numeric = {name: any(_is_number(row.get(name)) for row in rows) for name in shown}
     head = "".join(_heading(name, numeric[name]) for name in shown)
-    told = f"{title} [95 % intervals]" if intervals else title
+    caption = f"{title} [95 % intervals]" if intervals else title
     body = "".join(
         "<tr>" + "".join(_cell(row, name, numeric[name], intervals.get(name)) for name in shown) + "</tr>\n"
         for row in rows
     )
     return (
-        f'<div class="scroll"><table><caption>{escape(told)}</caption><thead><tr>{head}</tr></thead>\n'
+        f'<div class="scroll"><table><caption>{escape(caption)}</caption><thead><tr>{head}</tr></thead>\n'
         f"<tbody>\n{body}</tbody></table></div>"
     )
 
@@ -110,8 +111,8 @@ def interval_text(value: float, low: float, high: float) -> str:
         return number_text(value)
     half = (high - low) / 2
     decimals = min(max(-math.floor(math.log10(half / 3)), 0), 5) if half > 0 else 3
-    told = [f"{each:.{decimals}f}" for each in (value, low, high)] if half > 0 else [f"{value:.4g}"] * 3
-    return f"{told[0]}\u00a0[{told[1]},\u00a0{told[2]}]".replace("-", "\u2212")
+    shown = [f"{each:.{decimals}f}" for each in (value, low, high)] if half > 0 else [f"{value:.4g}"] * 3
+    return f"{shown[0]}\u00a0[{shown[1]},\u00a0{shown[2]}]".replace("-", "\u2212")
 
 
 def tidy(text: str) -> str:
@@ -145,8 +146,8 @@ def _intervals(names: Sequence[str]) -> dict[str, tuple[str, str]]:
 
 def _heading(name: str, numeric: bool) -> str:
     words, unit = COLUMNS.get(name, (name.replace("_", " "), ""))
-    told = f'<span class="unit">{escape(unit)}</span>' if unit else ""
-    return f"<th{_numeric(numeric)}>{escape(words)}{told}</th>"
+    shown = f'<span class="unit">{escape(unit)}</span>' if unit else ""
+    return f"<th{_numeric(numeric)}>{escape(words)}{shown}</th>"
 
 
 def _cell(row: Row, name: str, numeric: bool, interval: tuple[str, str] | None) -> str:

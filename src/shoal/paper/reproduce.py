@@ -12,14 +12,15 @@ import numba
 import numpy as np
 
 from shoal.core.errors import RecordError, ScenarioError
-from shoal.core.files import check_folder, write_whole
+from shoal.core.files import check_folder, write_atomic
 from shoal.core.version import RESULTS_VERSION, VERSION
+from shoal.experiments.replicate import Row
 from shoal.paper.claims import oceans_claims
 from shoal.paper.clusters import watch_clusters
 from shoal.paper.plan import PAPERS, PRINTED, QUICK_STEPS, REFIT, SPEEDS, Plan, make_plan
 from shoal.paper.published import published_claims, residual_table
 from shoal.paper.readings_study import STUDY, run_study
-from shoal.paper.results import Claim, Reproduction, Row
+from shoal.paper.results import Claim, Reproduction
 from shoal.paper.running import Report, run_plan
 from shoal.paper.sensitivity import conclusion_table, peak_table
 from shoal.paper.side_claims import side_claims
@@ -56,7 +57,7 @@ def reproduce(
     KeyboardInterrupt : interrupted; all finished runs are kept
     """
     if paper not in PAPERS:
-        raise ScenarioError(str(paper), "is no paper that Shoal can reproduce", f"choose {' or '.join(PAPERS)}")
+        raise ScenarioError(str(paper), "is not a paper that Shoal can reproduce", f"choose {' or '.join(PAPERS)}")
     if readings and paper != "oceans2020":
         raise ScenarioError(f"{paper} --readings", "are studied of oceans2020 only", "leave out --readings")
     begun, folder = time.monotonic(), Path(out)
@@ -157,10 +158,10 @@ def _claim_folder(out: Path, paper: str, quick: bool) -> None:
         out.mkdir(parents=True, exist_ok=True)
         known = json.loads(file.read_text(encoding="utf-8")) if file.exists() else mine
         if not isinstance(known, dict):
-            raise ValueError("it is no plan")
+            raise ValueError("it is not a plan")
     except OSError as error:
-        told = f"cannot be used: {error.strerror or error}"
-        raise RecordError(str(file), told, "name another folder with --out") from error
+        problem = f"cannot be used: {error.strerror or error}"
+        raise RecordError(str(file), problem, "name another folder with --out") from error
     except (ValueError, RecursionError) as error:
         raise RecordError(str(file), f"is damaged: {error}", "name another folder with --out") from error
     if known != mine:
@@ -169,7 +170,7 @@ def _claim_folder(out: Path, paper: str, quick: bool) -> None:
             f"holds the {_kind(known)} reproduction of {known.get('paper')}, not the {_kind(mine)} one of {paper}",
             "name another folder with --out",
         )
-    write_whole(file, (json.dumps(mine) + "\n").encode())
+    write_atomic(file, (json.dumps(mine) + "\n").encode())
 
 
 def _kind(plan: dict[str, object]) -> str:
@@ -187,7 +188,7 @@ def _write(found: Reproduction, out: Path) -> None:
     from shoal.paper.report import to_csv, write_report
 
     if found.paper == STUDY:
-        write_whole(out / "readings.csv", to_csv(found.tables["readings"]).encode())
+        write_atomic(out / "readings.csv", to_csv(found.tables["readings"]).encode())
     write_report(found, out)
 
 

@@ -3,7 +3,8 @@
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-Row = dict[str, Any]
+from shoal.experiments.replicate import Row
+
 Verdict = Literal["holds", "holds partly", "does not hold", "undecided"]
 
 

@@ -2,10 +2,10 @@
 
 from collections.abc import Sequence
 
+from shoal.experiments.replicate import Row
 from shoal.paper.claims import SWARMS, c1, c2, c3, c4, c5, c6, c7, c8, c9, c10
 from shoal.paper.curves import Interval, curve, peak, values_of
 from shoal.paper.plan import MIXED
-from shoal.paper.results import Row
 
 CONCLUSIONS = (c1, c2, c3, c4, c5, c6, c7, c8, c9, c10)  # C11 to C13 need other runs
 

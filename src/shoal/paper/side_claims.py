@@ -9,15 +9,16 @@ from functools import partial
 
 import numpy as np
 
+from shoal.experiments.replicate import Row
 from shoal.paper.cases import (
     Case,
+    case_text,
     count,
     judge,
     judged,
     percent,
     positive,
     rising,
-    told,
     told_number,
     verdict_of,
     within,
@@ -25,10 +26,10 @@ from shoal.paper.cases import (
 )
 from shoal.paper.claims import SWARMS
 from shoal.paper.curves import (
-    Curve,
     Floats,
     Interval,
-    Metric,
+    Measured,
+    RunCurve,
     bootstrap,
     cells,
     curve,
@@ -38,7 +39,7 @@ from shoal.paper.curves import (
     values_of,
 )
 from shoal.paper.plan import MIXED
-from shoal.paper.results import Claim, Row
+from shoal.paper.results import Claim
 from shoal.paper.side_plan import (
     BASE,
     CONSTANT,
@@ -286,7 +287,7 @@ def _above(number: Interval, least: float) -> bool | None:
     return True if number.low >= least else False if number.high < least else None
 
 
-def _pairs(sides: Sides, one: str, other: str, metric: Metric = "time_on_target") -> dict[str, tuple[Floats, Floats]]:
+def _pairs(sides: Sides, one: str, other: str, metric: Measured = "time_on_target") -> dict[str, tuple[Floats, Floats]]:
     """The mixed swarm under two settings at every k and speed that both have, seed by seed."""
     found = {}
     for speed in values_of(sides.get(one, ()), "target_speed"):
@@ -299,12 +300,12 @@ def _pairs(sides: Sides, one: str, other: str, metric: Metric = "time_on_target"
     return found
 
 
-def _kept(sides: Sides, whole: str, part: str) -> dict[str, Floats]:
+def _kept(sides: Sides, base: str, part: str) -> dict[str, Floats]:
     """Share of the time on target of one setting that another keeps, by place."""
-    return {place: its / base for place, (base, its) in _pairs(sides, whole, part).items()}
+    return {place: its / basis for place, (basis, its) in _pairs(sides, base, part).items()}
 
 
-def _gain(rows: Sequence[Row], speed: float, metric: Metric) -> Curve:
+def _gain(rows: Sequence[Row], speed: float, metric: Measured) -> RunCurve:
     mixed, slow = (curve(rows, metric, fast=fast, target_speed=speed) for fast in (MIXED, 0))
     return mixed.minus(slow)
 
@@ -320,10 +321,10 @@ def _claim(
     digits: int = 1,
     note: str = "",
 ) -> Claim:
-    """As the claims of the paper's figures are told: all cases where they are few, else the worst."""
+    """As the claims of the paper's figures are worded: all cases where they are few, else the worst."""
     key = worst(cases, aim)
     shown = cases if 0 < len(cases) <= _FEW_CASES else [key]
-    listed = "; ".join(told(case, digits=digits) for case in shown)
+    listed = "; ".join(case_text(case, digits=digits) for case in shown)
     rest = "" if len(shown) == len(cases) else f"; {count(cases)}"
     measured = f"{text.format(listed)}{rest}{note}"
     return Claim(id_, STATEMENTS[id_], measured, *key.number, unit, verdict_of(cases), figure, *count(cases))

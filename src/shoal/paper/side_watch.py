@@ -86,7 +86,7 @@ def _each_run(preset: str, changes: Point, steps: int, runs: int, *, fill: bool 
 
 
 def _nearest(x: Floats, y: Floats) -> npt.NDArray[np.bool_]:
-    """Who the six nearest of each agent are, (N, N)."""
+    """Whether agent j is among the six nearest of agent i, (N, N)."""
     square = (x[:, np.newaxis] - x) ** 2 + (y[:, np.newaxis] - y) ** 2
     np.fill_diagonal(square, np.inf)
     who = np.argsort(square, axis=1, kind="stable")[:, :NEAREST]

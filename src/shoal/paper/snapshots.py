@@ -52,8 +52,8 @@ def watch(scenario: Scenario | None = None, steps: int = STEPS, run: int = 0) ->
 def find_locked(record: Record, run: int = 0) -> Locked:
     """Return the first frame with the most agents locked inside the area, off its wall, while another is on target.
 
-    Of frames with equally many, the one with the most locked anywhere. Locked is who has a_R at its maximum and is
-    stationary, as in the histogram of phi.
+    Of frames with equally many, the one with the most locked anywhere. An agent is locked if it has a_R at its
+    maximum and is stationary, as in the histogram of phi.
     """
     frames = record.trajectories[run]
     top = record.roster.max_speed

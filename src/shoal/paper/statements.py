@@ -14,11 +14,12 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from shoal.experiments.replicate import Row
 from shoal.paper import claims as judges
 from shoal.paper.clusters import Episode
 from shoal.paper.curves import values_of
 from shoal.paper.plan import FULL_STEPS
-from shoal.paper.results import Claim, Row
+from shoal.paper.results import Claim
 
 ABOUT_VALUES = ("C3", "C5")
 BOTH = "both"

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.core.errors import MissingExtraError, RecordError
-from shoal.core.files import WholeFolder, whole_file
+from shoal.core.files import AtomicFolder, atomic_file
 from shoal.metrics.heading_bearing import CENTERS, fleet_stationary, phi_histogram
 from shoal.metrics.summary import METRICS, evaluate
 from shoal.metrics.velocity_fluctuation import fleet_fluctuation
@@ -68,7 +68,7 @@ def to_netcdf(record: "Record", path: str | Path) -> None:
     RecordError : the file exists or cannot be written
     """
     _library("netCDF4")
-    with whole_file(path, new=True) as partial, _failures_told(path):
+    with atomic_file(path, new=True) as partial, _failures_told(path):
         to_xarray(record).to_netcdf(partial, format="NETCDF4", engine="netcdf4")
 
 
@@ -81,7 +81,7 @@ def to_zarr(record: "Record", path: str | Path) -> None:
     RecordError : the folder exists or cannot be written
     """
     _library("zarr")
-    with WholeFolder(path, last=".zmetadata") as folder, _failures_told(path):
+    with AtomicFolder(path, last=".zmetadata") as folder, _failures_told(path):
         to_xarray(record).to_zarr(folder.partial, mode="w-", zarr_format=2, consolidated=True)
         folder.finish()
 

@@ -13,7 +13,7 @@ from typing import Any, Self
 import numpy as np
 
 from shoal.core.errors import RecordError, reason_of
-from shoal.core.files import WholeFolder
+from shoal.core.files import AtomicFolder
 from shoal.metrics.contract import Facts
 from shoal.record.arrays import check_frames, check_trajectory, read_roster, read_tallies, sum_of_file
 from shoal.record.content import FORMAT, RecordContent, read_content, sum_of_content
@@ -33,7 +33,7 @@ class RecordFolder:
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
-        self._whole = WholeFolder(folder, last="record.json")
+        self._whole = AtomicFolder(folder, last="record.json")
         self._writers: dict[str, TrajectoryWriter] = {}
 
     def __enter__(self) -> Self:
@@ -110,7 +110,7 @@ def open_record(folder: str | Path) -> Record:
     folder = Path(folder)
     try:
         if not (folder / "record.json").is_file():
-            raise RecordError(str(folder), "is no record (it has no record.json)", "name a folder made by --out")
+            raise RecordError(str(folder), "is not a record (it has no record.json)", "name a folder made by --out")
         content = read_content(folder / "record.json")
         facts = Facts(**{name: _plain(part) for name, part in content.facts})
         if content.format < 3:

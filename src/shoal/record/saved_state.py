@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.core.errors import RecordError, reason_of
-from shoal.core.files import whole_file
+from shoal.core.files import atomic_file
 
 Arrays = Mapping[str, npt.NDArray[Any]]
 
@@ -22,7 +22,7 @@ def write_state(file: str | Path, identity: str, arrays: Arrays) -> None:
     RecordError : it cannot be written, or something else is there
     """
     checksum = _sum_of(identity, arrays)
-    with whole_file(file, ours=True) as partial, partial.open("wb") as stream:
+    with atomic_file(file, ours=True) as partial, partial.open("wb") as stream:
         np.savez(stream, shoal=np.array(identity), sha256=np.array(checksum), **dict(arrays))  # type: ignore[arg-type]
 
 
@@ -57,7 +57,7 @@ def read_state(
     except RecordError:
         raise
     except Exception as error:  # whatever a damaged file does to those who read it
-        problem = f"is no saved state: {reason_of(error)}"
+        problem = f"is not a saved state: {reason_of(error)}"
         raise RecordError(str(file), problem, "name a file made by Simulation.save") from error
 
 

@@ -77,7 +77,7 @@ def build_swarm(scenario: Scenario, crew: Crew) -> Any:
 
 
 def build_radio(scenario: Scenario, crew: Crew, lanes: int) -> Any:
-    """Limits of the network, and room for what is under way. Strategies that hear all are told so here, too."""
+    """Limits of the network, and room for reports in flight. Strategies that hear all get k = N - 1 here, too."""
     network, adaptive = scenario.network, scenario.network.adaptive
     radio = new_radio(
         lanes,
@@ -113,7 +113,7 @@ def open_tracks(scenario: Scenario) -> list[Track]:
 
 
 def build_targets(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Any, Tracks]:
-    """One record per target; the fixes of recorded ones behind each other."""
+    """One record per target; the fixes of recorded ones one after the other."""
     targets = np.zeros(len(scenario.targets), TARGET).view(np.recarray)
     unread = list(tracks)
     first_fix = 0

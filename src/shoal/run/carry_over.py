@@ -16,7 +16,7 @@ def carry_over(old: Simulation, scenario: Scenario, origin: npt.ArrayLike | None
 
     The step and the whole state are carried over: of agents, of targets of the same kind, and what is on the air. What
     depends on more than the agent itself has a rule: memories go to agents whose strategy is the same, others begin
-    theirs where they are; k is carried where it adapts. Sums begin anew. Same bits, whenever the same is carried over
+    theirs where they are; k is carried where it adapts. Sums start over. Same bits, whenever the same is carried over
     at the same step.
 
     Parameters
@@ -75,7 +75,7 @@ def _carry_memory(old: Simulation, new: Simulation, now: State, here: Lanes, the
 
 
 def _carry_air(old: Simulation, new: Simulation, now: State, here: Lanes, there: Lanes) -> None:
-    """Reports that are still on their way; where there are none such, as if all had always said what they say now."""
+    """Reports still in flight; where there are none, as if all had always said what they say now."""
     for name, said in now.air._asdict().items():
         said[:] = getattr(now.swarm, name)
         if old.radio.delay == new.radio.delay and (name != "told" or old.crew.told == new.crew.told):

@@ -27,10 +27,10 @@ from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source, load
 from shoal.scenario.schema import Scenario
 
-OVERVIEW = 500  # frames of the first run kept over its whole length, if not told otherwise
+OVERVIEW = 500  # frames of the first run kept over its whole length, unless asked otherwise
 TAIL = 300  # and of its last steps, all
 
-Progress = Callable[[int, int], None]
+ProgressCallback = Callable[[int, int], None]
 
 
 def simulate(
@@ -40,7 +40,7 @@ def simulate(
     jobs: int | None = None,
     every: int | None = None,
     out: str | Path | None = None,
-    progress: Progress | None = None,
+    progress: ProgressCallback | None = None,
     **changes: Any,
 ) -> Record:
     """Run a scenario and return its record.
@@ -52,7 +52,7 @@ def simulate(
     scenario : what to run: a preset's name, a TOML file, a dict or a Scenario
     runs : independent replicates, R; replicate r of two scenarios with one seed shares its chance
     jobs : threads, one run each; default: one per core
-    every : keep the frame of every so many-th step of every run; default: an overview of the first run
+    every : keep the frame of every n-th step of every run; default: an overview of the first run
     out : write the record to this new folder; trajectories stream there, so memory does not grow with steps
     progress : called as progress(steps done, steps in all) from time to time, from any thread
     changes : to the scenario, in the words of the command line, as in `Scenario.with_`
@@ -117,7 +117,7 @@ class _Keep:
 
 
 def _run_all(
-    scenario: Scenario, first: Simulation, runs: int, jobs: int, keep: _Keep, progress: Progress
+    scenario: Scenario, first: Simulation, runs: int, jobs: int, keep: _Keep, progress: ProgressCallback
 ) -> list[tuple[Tally, Trajectory | None]]:
     stop = threading.Event()
     done, total, lock = 0, runs * scenario.steps, threading.Lock()

@@ -53,7 +53,7 @@ class Simulation:
 
     Raises
     ------
-    ScenarioError : it is none that can run
+    ScenarioError : it cannot run
     TrackError : a recorded track cannot be used
     StrategyError : the strategy cannot be compiled, or raises an error
     """
@@ -108,7 +108,7 @@ class Simulation:
             self._begin(self._placed.address, self._minds, self.crew.params)
 
     def advance(self, steps: int, *, every: int | None = None, tail: int | None = None) -> Trajectory | None:
-        """Run so many steps; with `every`, return the frames of every so many-th step and of all from step `tail` on.
+        """Run a number of steps; with `every`, return the frames of every n-th step and of all from step `tail` on.
 
         Memory and results do not depend on how a run is cut into calls. When a call is back the state is true: agents
         are on target that are where they stand now.
@@ -131,7 +131,7 @@ class Simulation:
         return Trajectory.from_frames(frames, self.memory_fields) if frames.step.size else None
 
     def look(self) -> Trajectory:
-        """Return the frame of now (K = 1), as the coming step would keep it. Nothing is changed.
+        """Return the current frame (K = 1), as the coming step would keep it. Nothing is changed.
 
         Its links are those of the coming step. In the sequential order, in which agents hear what others have just
         done, they are those of agents that all decide first.
@@ -143,7 +143,7 @@ class Simulation:
 
     @contextmanager
     def edit(self) -> Iterator[State]:
-        """Open the state for changes by hand; when the block ends, who is on target is decided anew.
+        """Open the state for changes by hand; when the block ends, on_target is recomputed.
 
         >>> with simulation.edit() as now:
         ...     now.swarm.x[:2] = 0.0
@@ -160,11 +160,15 @@ class Simulation:
         return dict(arrays_of(self.moment)) | {"number": np.array(self.number)}
 
     def save(self, file: str | Path) -> None:
-        """Write the state to an .npz file, whole or not at all."""
+        """Write the state to a file (.npz), atomically."""
         write_state(file, self._identity(), self.state())
 
     def restore(self, file: str | Path) -> None:
         """Continue from a saved state of the same scenario, seed and run.
+
+        Parameters
+        ----------
+        file : what `save` wrote
 
         Raises
         ------

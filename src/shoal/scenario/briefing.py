@@ -12,7 +12,12 @@ from shoal.scenario.schema import Scenario
 
 
 def briefing(scenario: Source, id: int) -> Briefing:
-    """Return what agent `id` (0 to N - 1) is told before it leaves: `me.briefing` of its strategy.
+    """Return what an agent is told before it leaves: `me.briefing` of its strategy.
+
+    Parameters
+    ----------
+    scenario : a preset's name, a TOML file, a dict or a Scenario
+    id : number of the agent, 0 to N - 1
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What a scenario's fleets were given, in words: once where all have the same, else of each."""
+"""What a scenario's fleets were given, in words: once if all have the same, otherwise of each."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any

@@ -1,4 +1,4 @@
-"""How long a run is: so many steps, or a duration such as "2 h"."""
+"""How long a run is: a number of steps, or a duration such as "2 h"."""
 
 import math
 import re
@@ -30,12 +30,12 @@ def steps_of(duration: str, time_step: Any) -> int:
 
     Raises
     ------
-    ValueError : one of them is no time
+    ValueError : one of them is not a time
     """
     step = _SECONDS.parse(time_step)
     steps = _SECONDS.parse(duration) / step if isinstance(step, (int, float)) and step > 0 else math.nan
     if not math.isfinite(steps):
-        raise ValueError(f"{quoted(duration)}, which needs a time_step above 0; mend that first")
+        raise ValueError(f"{quoted(duration)}, which needs a time_step above 0; correct that first")
     return math.ceil(steps - 1e-6)
 
 

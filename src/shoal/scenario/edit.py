@@ -44,14 +44,14 @@ def apply(table: Table, changes: Mapping[str, Any]) -> Table:
         else:
             check_words({name: value})
     emptied = {name.split(".")[0] for name, value in changes.items() if name.endswith(".count") and value == 0}
-    for name in emptied & {"fleets", "losses", "joins"}:  # none of them is no entry
+    for name in emptied & {"fleets", "losses", "joins"}:  # a count of 0 means no entry at all
         changed[name] = [each for each in changed[name] if not (isinstance(each, dict) and each.get("count") == 0)]
     _drop_digests(changed, changes)
     return changed
 
 
 def check_words(changes: Mapping[str, Any], also: Iterable[str] = ()) -> None:
-    """Refuse what is no shorthand, field or path; `also` may have been meant.
+    """Refuse what is not a shorthand, field or path; `also` may have been meant.
 
     Raises
     ------
@@ -62,7 +62,7 @@ def check_words(changes: Mapping[str, Any], also: Iterable[str] = ()) -> None:
         known = [*SHORTHANDS, *TRACK, *Scenario.model_fields, *also]
         if "." not in name and key not in known:
             hint = did_you_mean(key, known).rstrip() or f"there are: {', '.join(known)}; or a path such as network.loss"
-            raise ScenarioError(name, f"is no field of a scenario (value {quoted(value)})", hint)
+            raise ScenarioError(name, f"is not a field of a scenario (value {quoted(value)})", hint)
 
 
 def _rank(change: tuple[str, Any]) -> int:
@@ -74,25 +74,25 @@ def _rank(change: tuple[str, Any]) -> int:
 def set_path(table: Table, path: str, value: Any) -> None:
     """Set a field by its dotted path; lists take an index or, for fleets, a name: fleets.BoB-1.count."""
     *parents, last = path.split(".")
-    here: Any = table
+    node: Any = table
     for at, part in enumerate(parents):
         where = ".".join(parents[: at + 1])
-        if isinstance(here, list):
-            here = here[_index(here, part, where)]
-        elif not isinstance(here, dict):
-            raise ScenarioError(path, f"{where!r} is no field of a table", "mend the scenario first")
-        elif part == "strategy" and isinstance(here.get(part), (str, StrategyChoice)):
-            here[part] = here = _strategy_table(here[part])
-        elif isinstance(here.get(part), (dict, list)):
-            here = here[part]
-        elif at == 0 and part not in here and part in ("area", "network", "motion", "strategy"):
-            here = here.setdefault(part, {})
+        if isinstance(node, list):
+            node = node[_index(node, part, where)]
+        elif not isinstance(node, dict):
+            raise ScenarioError(path, f"{where!r} is not a field of a table", "correct the scenario first")
+        elif part == "strategy" and isinstance(node.get(part), (str, StrategyChoice)):
+            node[part] = node = _strategy_table(node[part])
+        elif isinstance(node.get(part), (dict, list)):
+            node = node[part]
+        elif at == 0 and part not in node and part in ("area", "network", "motion", "strategy"):
+            node = node.setdefault(part, {})
         else:
-            hint = did_you_mean(part, here).rstrip() or f"there are: {', '.join(here)}"
+            hint = did_you_mean(part, node).rstrip() or f"there are: {', '.join(node)}"
             raise ScenarioError(path, f"the scenario has no {where!r}", hint)
-    if not isinstance(here, dict):
+    if not isinstance(node, dict):
         raise ScenarioError(path, "names a whole entry of a list", f"name a field of it: {path}.FIELD=VALUE")
-    here[last] = value
+    node[last] = value
 
 
 def refuse_contradictions(table: Table, asked: Sequence[tuple[str, str]]) -> None:
@@ -157,12 +157,14 @@ def parse_assignment(text: str) -> tuple[str, Any]:
     """
     path, equals, value = text.partition("=")
     if not equals or not re.fullmatch(r"[\w.\-]+", path.strip()):
-        raise ScenarioError(f"--set {cut(text)}", "is no assignment", "write path=value, such as network.neighbors=12")
+        raise ScenarioError(
+            f"--set {cut(text)}", "is not an assignment", "write path=value, such as network.neighbors=12"
+        )
     return path.strip(), parse_value(value.strip())
 
 
 def _drop_digests(table: Table, changes: Mapping[str, Any]) -> None:
-    """A recorded track that is read in another way is another one: the digest of the old one is void."""
+    """A recorded track that is read differently is another one: the digest of the old one is void."""
     targets = table.get("targets")
     for n, target in enumerate(targets if isinstance(targets, list) else ()):
         if isinstance(target, dict) and "digest" in target and f"targets.{n}.digest" not in changes:
@@ -190,8 +192,8 @@ def _set_agents(table: Table, value: Any) -> None:
     if not isinstance(value, int) or value < 2:
         raise ScenarioError("agents", f"is {quoted(value)}", "give a number of agents, 2 or more")
     fleets = _fleets(table, "agents")
-    whole = sum(fleet["count"] for fleet in fleets)
-    exact = [Fraction(fleet["count"] * value, whole) for fleet in fleets]
+    agents = sum(fleet["count"] for fleet in fleets)
+    exact = [Fraction(fleet["count"] * value, agents) for fleet in fleets]
     counts = [int(share) for share in exact]
     for f in sorted(range(len(fleets)), key=lambda f: counts[f] - exact[f])[: value - sum(counts)]:
         counts[f] += 1

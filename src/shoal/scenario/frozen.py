@@ -28,7 +28,7 @@ class Frozen(BaseModel):
             return super().model_copy(deep=deep)
         return self._validated({**vars(self), **update})
 
-    if not TYPE_CHECKING:  # type checkers shall go on to know what there is
+    if not TYPE_CHECKING:  # hidden from type checkers, which know the names
 
         def __setattr__(self, name: str, value: Any) -> None:
             part = type(self).__name__
@@ -52,7 +52,7 @@ class Frozen(BaseModel):
             fields = list(type(self).model_fields)
             path = f"{part}.{first['loc'][0]}" if first["loc"] else part
             if first["type"] == "extra_forbidden":
-                hint = did_you_mean(str(first["loc"][-1]), fields) or f"fields here: {', '.join(fields)}"
+                hint = did_you_mean(str(first["loc"][-1]), fields) or f"its fields: {', '.join(fields)}"
                 raise ScenarioError(path, f"unknown field (value {quoted(first['input'])})", hint.rstrip()) from None
             raise ScenarioError(path, f"{quoted(first['input'])}: {first['msg'].lower()}", "change the value") from None
 

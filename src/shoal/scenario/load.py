@@ -48,7 +48,7 @@ def load(source: Source, /, **changes: Any) -> Scenario:
     ------
     ScenarioError : no such preset or file, not TOML, not a scenario that can run, or a change that it has no place for
     TrackError : the recorded track of `target_track` cannot be used
-    StrategyError : the strategy cannot be loaded, or was defined anew since the scenario was made
+    StrategyError : the strategy cannot be loaded, or was redefined since the scenario was made
     """
     table, where, text = table_of(source), name_of_source(source), ""
     if changes:
@@ -91,7 +91,7 @@ def _refuse_outdated(scenario: Scenario) -> None:
         if choice and choice.outdated:
             raise StrategyError(
                 f"strategy {choice.name!r}",
-                "was defined anew since this scenario was made",
+                "was redefined since this scenario was made",
                 f'take the new one: scenario.with_(strategy="{choice.name}")',
             )
 
@@ -132,7 +132,7 @@ def scenario_from(table: Mapping[str, Any], *, where: str = "scenario", text: st
     """
     if not isinstance(table, Mapping):
         fix = "give the table of a scenario; shoal.load reads one from a file or a preset"
-        raise ScenarioError(where, f"{quoted(table)} is no table of fields", fix)
+        raise ScenarioError(where, f"{quoted(table)} is not a table of fields", fix)
     try:
         _refuse_crowds(table, where)
         written: dict[str, Any] = plain(table)
@@ -188,7 +188,7 @@ def to_toml(scenario: Scenario) -> str:
 
     Raises
     ------
-    ScenarioError : it is none that can run
+    ScenarioError : it cannot run
     """
     return tomli_w.dumps(_without_none(load(scenario).model_dump(mode="json")))
 
@@ -249,7 +249,7 @@ def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tup
     value = error.get("input")
     known = _known_fields(path, table)
     if error["type"] == "extra_forbidden":
-        hint = did_you_mean(str(path[-1]), known).rstrip() or f"fields here: {', '.join(known)}"
+        hint = did_you_mean(str(path[-1]), known).rstrip() or f"its fields: {', '.join(known)}"
         return f"unknown field (value {quoted(value)})", hint
     if error["type"] == "missing":
         return "is required and missing", f"add {path[-1]} = ..."

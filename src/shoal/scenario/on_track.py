@@ -60,7 +60,7 @@ def put_on_track(
 def sign_tracks(table: dict[str, Any]) -> dict[str, Any]:
     """Return the table with the digest of each recorded track, as it is read with the options that the table has.
 
-    A digest that is there already stays, also one of None, which insists on nothing.
+    A digest that is already given stays, as does one of None, which demands nothing.
 
     Raises
     ------
@@ -101,13 +101,13 @@ def open_track(target: TrackTarget, origin: tuple[float, float] | None) -> Track
 
 
 def _check_text(text: str) -> None:
-    """Refuse what the system's encoding could not read: its bytes are no text."""
+    """Refuse what the system's encoding could not read: its bytes are not text."""
     try:
         text.encode()
     except UnicodeEncodeError as error:
         shown = text.encode(errors="backslashreplace").decode()
         raise TrackError(
-            shown, "is no text in the encoding of this terminal", "set PYTHONUTF8=1 or a UTF-8 locale, or rename it"
+            shown, "is not text in the encoding of this terminal", "set PYTHONUTF8=1 or a UTF-8 locale, or rename it"
         ) from error
 
 

@@ -33,7 +33,7 @@ Degree = Count | Literal["all"]
 
 def _sentence(text: str) -> str:
     if len(text) > 2000 or any(hides(each) for each in text if each not in "\n\t"):
-        raise ValueError(f"{quoted(text)} is no sentence; write 2000 characters at most, none of them a control one")
+        raise ValueError(f"{quoted(text)} is not a sentence; write 2000 characters at most, none of them a control one")
     return text
 
 
@@ -79,7 +79,7 @@ class Fleet(Frozen):
         default=1.0, description="chance per step that an agent notices a target within its reach"
     )
     false_alarm_probability: Chance = Field(
-        default=0.0, description="chance per step that an agent reports a target that is not there"
+        default=0.0, description="chance per step that an agent reports an absent target"
     )
     mean_lifetime: Annotated[Seconds, Positive] | None = Field(
         default=None, description="agents fail at a constant rate, after this time on average [s]; default: never"
@@ -107,9 +107,9 @@ class AdaptiveDegree(Frozen):
 
 
 class Loss(Frozen):
-    """Agents that are lost at a step, chosen by lot."""
+    """Agents that are lost at a step, chosen at random."""
 
-    step: Count = Field(description="they are not there from this step on")
+    step: Count = Field(description="they are absent from this step on")
     count: Count = Field(description="number of agents")
     fleet: str | None = Field(default=None, description="of which fleet; default: of any")
 
@@ -123,7 +123,7 @@ class Join(Frozen):
 
 
 class Network(Frozen):
-    """Who hears whom, and what gets lost on the way."""
+    """Which agents hear which, and what gets lost."""
 
     neighbors: Degree = Field(description='k: every agent hears its k nearest others, or "all"')
     range: Annotated[Meters, Positive] | None = Field(
@@ -189,7 +189,12 @@ class Scenario(Frozen):
         return load(self, **changes)
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
-        """Return a copy with whole fields changed, validated; see `with_`, which knows shorthands and paths.
+        """Return a copy with fields changed, validated; see `with_`, which knows shorthands and paths.
+
+        Parameters
+        ----------
+        update : {field: value}, each value complete
+        deep : copy the values too
 
         Raises
         ------
@@ -200,7 +205,7 @@ class Scenario(Frozen):
         for name in update:
             if name not in type(self).model_fields:
                 hint = did_you_mean(name, type(self).model_fields).rstrip() or f"scenario.with_(**{{{name!r}: ...}})"
-                raise ScenarioError(name, f"is no field of a scenario (value {quoted(update[name])})", hint)
+                raise ScenarioError(name, f"is not a field of a scenario (value {quoted(update[name])})", hint)
         from shoal.scenario.load import scenario_from
 
         return cast(Self, scenario_from({**vars(self), **update}))
@@ -259,7 +264,7 @@ class Scenario(Frozen):
     def choices(self) -> dict[str, Any]:
         """All that shapes a run but its seed, as far as it is not left at its default.
 
-        A field that later versions add, off by default, is no part of it: hashes and stores stay what they are.
+        A field that later versions add, off by default, is not part of it: hashes and stores stay what they are.
         """
         content = self.model_dump(mode="json", exclude={"name", "description", "seed"}, exclude_defaults=True)
         for target, part in zip(self.targets, content["targets"], strict=True):

@@ -59,7 +59,7 @@ class StrategyChoice:
 
     @property
     def outdated(self) -> bool:
-        """Whether its strategy, which is no file's, was defined anew since, as in a notebook's cell run twice."""
+        """Whether its strategy, defined outside a file, has been redefined since, as in a notebook's cell run twice."""
         return self.file is None and CATALOGUE.get(self.name, self.owner) is not self.owner
 
     def __eq__(self, other: object) -> bool:
@@ -167,10 +167,10 @@ def _model_of(name: str, key: Hashable) -> type[BaseModel]:
     return create_model(f"{params.__name__}Table", __config__=config, __doc__=params.__doc__, **fields)
 
 
-def _limits(told: Range | None, kind: type[Any]) -> dict[str, Any]:
+def _limits(allowed: Range | None, kind: type[Any]) -> dict[str, Any]:
     """What a number may be, in pydantic's words."""
-    if told:
-        return {"gt" if told.open else "ge": told.least, "le": told.most}
+    if allowed:
+        return {"gt" if allowed.open else "ge": allowed.least, "le": allowed.most}
     return {"ge": -(2**53), "le": 2**53} if kind is int else {}
 
 

@@ -52,7 +52,7 @@ class WaypointTarget(MovingTarget):
     kind: Literal["waypoint"] = "waypoint"
     max_turn: Annotated[Degrees, Field(gt=0, le=180)] = Field(default=20.0, description="largest turn in a step [deg]")
     waypoint_reach: Annotated[Meters, Positive] = Field(description="a new waypoint is taken when closer than this [m]")
-    waypoint_patience: Count = Field(default=200, description="or after so many steps on the same one")
+    waypoint_patience: Count = Field(default=200, description="or after this many steps on the same one")
 
 
 class LineTarget(MovingTarget):
@@ -86,7 +86,7 @@ class LevyTarget(MovingTarget):
 
 
 class EvasiveTarget(MovingTarget):
-    """Flees from the buoys that it sees and from walls; wanders else."""
+    """Flees from the buoys that it sees and from walls; otherwise wanders."""
 
     kind: Literal["evasive"] = "evasive"
     sight: Annotated[Meters, NotNegative] = Field(description="it flees from buoys nearer than this [m]")
@@ -105,7 +105,7 @@ class DriftTarget(MovingTarget):
     current_x: MetersPerSecond = Field(default=0.0, description="eastward current [m/s]")
     current_y: MetersPerSecond = Field(default=0.0, description="northward current [m/s]")
     persistence: Annotated[Seconds, Positive] = Field(
-        default=10.0, description="of its own way: after this time the mean cosine of the turn is 1/e [s]"
+        default=10.0, description="of its own motion: after this time the mean cosine of the turn is 1/e [s]"
     )
 
 
@@ -119,7 +119,7 @@ class TrackTarget(Frozen):
     id: str | None = Field(default=None, description='which track of the file, as "COLUMN=VALUE"; "all" joins all')
     radius: Annotated[Meters, NotNegative] = Field(description="rho: size of the target [m]")
     max_gap: Annotated[Seconds, Positive] | None = Field(
-        default=None, description="in a longer silence the target is not there [s]; default from the data"
+        default=None, description="in a longer silence the target is absent [s]; default from the data"
     )
     max_speed: Annotated[MetersPerSecond, Positive] = Field(
         default=40.0, description="a faster jump between two fixes is a GPS error [m/s]"

@@ -1,10 +1,10 @@
-"""A-CMOMMT: a field of forces, toward who sees a target, away from who is near.
+"""A-CMOMMT: a field of forces, toward agents that see a target, away from those nearby.
 
 Parker, "Distributed algorithms for multi-robot observation of multiple moving targets", Autonomous Robots 12, 2002.
 There robots measure where targets are; a binary sensor does not, so here the nearest neighbor on target stands for its
 target. The forces are Parker's piecewise linear ones: that of a target pushes within do1, is full from do2 to do3 and
 fades out at the predictive tracking range; that of a team mate is full within dr1 and fades out at dr2. Her weight of
-targets that others watch already is one number, for here every known target is watched. Who is on target keeps apart
+targets that others watch already is one number: every known target is watched. Agents on target keep apart
 only; where no force acts, a random walk.
 """
 

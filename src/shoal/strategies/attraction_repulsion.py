@@ -19,20 +19,20 @@ class AttractionRepulsion(NamedTuple):
     """Parameters."""
 
     inertia: Annotated[float, Range(), Says("omega: share of the velocity kept from one step to the next")] = 0.7
-    social: Annotated[float, Range(), Says("c: largest share of the way to the leader wanted in one step")] = 0.5
+    social: Annotated[float, Range(), Says("c: largest share of the distance to the leader wanted in one step")] = 0.5
     equilibrium: Annotated[
         Meters, Range(open=True), Says("r_eq: distance at which two agents neither attract nor repel")
     ] = 2.4
-    attraction: Annotated[float, Range(open=True), Says("a: share of the way to a far neighbor wanted in one step")] = (
-        0.002
-    )
+    attraction: Annotated[
+        float, Range(open=True), Says("a: share of the distance to a far neighbor wanted in one step")
+    ] = 0.002
     repulsion: Annotated[
         float, Range(open=True), Says("b: share of the distance to a near neighbor by which it pushes in one step")
     ] = 0.5
 
 
 def influence(me, other, params):
-    """The way toward (a) or from (b) one neighbor [m]."""
+    """The displacement toward (a) or from (b) one neighbor [m]."""
     dx = me.x - other.x
     dy = me.y - other.y
     width = params.equilibrium * params.equilibrium / (math.sqrt(params.repulsion / params.attraction) - 1.0)

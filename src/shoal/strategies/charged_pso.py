@@ -2,7 +2,7 @@
 
 Blackwell and Bentley, "Dynamic search with charged swarms", GECCO 2002: a_i = sum_j Q_i Q_j / r_ij^3 (x_i - x_j) for
 p_core <= r_ij <= p, the strength at the core inside it, nothing beyond the perception limit p. All are charged alike;
-the attraction is to the neighborhood's best only, for a personal best is a place where the target is no more.
+the attraction is to the neighborhood's best only, since a personal best is a place where the target no longer is.
 """
 
 import math
@@ -17,7 +17,7 @@ class ChargedPso(NamedTuple):
     """Parameters."""
 
     inertia: Annotated[float, Range(), Says("omega: share of the velocity kept from one step to the next")] = 0.7
-    social: Annotated[float, Range(), Says("c: largest share of the way to the leader wanted in one step")] = 0.5
+    social: Annotated[float, Range(), Says("c: largest share of the distance to the leader wanted in one step")] = 0.5
     charge: Annotated[Meters, Range(), Says("q: two charges this far apart push each other this far in a step")] = 0.63
     core: Annotated[Meters, Range(), Says("p_core: nearer ones push no harder than at this distance")] = 0.3
     perception: Annotated[Meters, Range(), Says("p: those farther away do not push")] = 4.0

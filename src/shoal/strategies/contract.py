@@ -147,7 +147,7 @@ def strategy(name: str, **declared: Unpack[Declaration]) -> Callable[[Callable[.
         fields = getattr(params, "_fields", None)
         if fields is None:
             raise StrategyError(
-                where, f"params={params!r} is no NamedTuple class", "write class Params(NamedTuple): ..."
+                where, f"params={params!r} is not a NamedTuple class", "write class Params(NamedTuple): ..."
             )
         try:
             checked_name(name)
@@ -176,7 +176,7 @@ def strategy(name: str, **declared: Unpack[Declaration]) -> Callable[[Callable[.
             raise StrategyError(where, "names sums, but nothing adds to them", "give influence=...")
         if leads and "rank" not in fields and asks_for_rank(leads):
             problem = "leads asks for other.rank, but is asked once for all listeners"
-            raise StrategyError(where, problem, "let priority return math.inf for whom this agent does not follow")
+            raise StrategyError(where, problem, "return math.inf from priority for neighbors not to follow")
         compiled = kernel(decide)
         plain: Any = getattr(decide, "py_func", decide)
         _register(
@@ -291,7 +291,7 @@ def rank_of(rank: Any, j: int, i: int, params: Any) -> Any:
 
 
 def has_influence(params: Any) -> Any:
-    """Whether the owner of params sums anything; a compile-time constant, so that nothing is summed in vain."""
+    """Whether the owner of params sums anything; a compile-time constant, so that no sum is wasted."""
     return _has(params, type(params), "influence")
 
 
@@ -452,7 +452,7 @@ _COUNT_THEM = "return as many numbers as sums=(...) names, which are x and y if 
 
 
 def _miscounted(owner: Strategy, count: int) -> str:
-    """What is wrong with an influence of so many numbers; nothing if they are as many as the sums."""
+    """What is wrong with an influence that returns `count` numbers; empty if that is the number of sums."""
     names = owner.sums._fields
     return "" if count == len(names) else f"influence returns {count} numbers, but the sums are {', '.join(names)}"
 

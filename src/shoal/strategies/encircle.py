@@ -6,7 +6,7 @@ hears of its k nearest neighbors where they are and whether they are on target, 
 1. Without contact, agents wait on the stations of an even cover.
 2. Each keeps an estimate of the target (position, velocity, speed), moves it on from step to step and corrects it by
    what one bit says. Whoever is on target, the agent or its leader, has the target within reach: an estimate beyond is
-   drawn to the rim. Who is not has it outside: an estimate within is pushed to the rim. An agent that has just come on
+   drawn to the rim. For the others it is outside: an estimate within is pushed to the rim. An agent just come on
    target has it on its rim. Every correction turns the estimated velocity and, slowly, changes the estimated speed.
 3. While the contact is fresh, agents leave their stations for a ring around the estimate, each on the side of its own
    station and at a distance from the others: together they see the target wherever around the estimate it is, and what
@@ -36,7 +36,7 @@ class Encircle(NamedTuple):
     ] = 9.0
     ring: Annotated[Meters, Range(), Says("distance of the ring from the estimate")] = 0.95
     spacing: Annotated[Meters, Range(), Says("agents on the ring push each other when nearer than this")] = 2.0
-    push: Annotated[float, Range(), Says("how strongly, in ways to the neighbor")] = 0.3
+    push: Annotated[float, Range(), Says("how strongly, as a share of the distance to the neighbor")] = 0.3
     lead: Annotated[
         float, Range(), Says("share of the time to get there by which the ring is ahead of the estimate")
     ] = 0.1
@@ -44,7 +44,7 @@ class Encircle(NamedTuple):
         Seconds, Range(), Says("after so long without contact agents go home and forget the estimate")
     ] = 1.0
     learn: Annotated[
-        float, Range(0.0, 1.0), Says("share of a correction along the way that goes into the estimated speed")
+        float, Range(0.0, 1.0), Says("share of a correction along the path that goes into the estimated speed")
     ] = 0.05
 
 

@@ -2,7 +2,7 @@
 
 IAMSAR Manual, vol. II (IMO/ICAO), chapter 5: expanding square (SS): legs of d, d, 2d, 2d, 3d, 3d ... with a right turn
 after each, d the track spacing, until the square is as large as the agent's part, which is as large as its share of the
-summed top speeds; one round at least. By the book: who sees a target carries on.
+summed top speeds; one round at least. By the book: an agent that sees a target carries on.
 """
 
 import math
@@ -11,7 +11,7 @@ from typing import Annotated, NamedTuple
 from shoal.compiler.kernel import kernel
 from shoal.core.units import Range, Says
 from shoal.strategies.contract import strategy
-from shoal.strategies.parts import inside, middle_of_part, size_of_part, toward, way_point_reached
+from shoal.strategies.parts import inside, middle_of_part, size_of_part, toward, waypoint_reached
 
 
 class ExpandingSquare(NamedTuple):
@@ -31,7 +31,7 @@ def decide(me, heard, memory, params, draw):
     spacing = max(2.0 * me.briefing.reach * params.spacing, 1e-2 * me.briefing.half_x)
     x, y = corner(memory.leg)
     goal_x, goal_y = inside(me, memory.datum_x + spacing * x, memory.datum_y + spacing * y)
-    if way_point_reached(me, goal_x, goal_y):
+    if waypoint_reached(me, goal_x, goal_y):
         memory.leg = (memory.leg + 1.0) % (4.0 * rounds(math.sqrt(size_of_part(me)), spacing) + 2.0)
         x, y = corner(memory.leg)
         goal_x, goal_y = inside(me, memory.datum_x + spacing * x, memory.datum_y + spacing * y)

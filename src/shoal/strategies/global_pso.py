@@ -1,7 +1,7 @@
 """Plain global-best PSO: everybody hears everybody, nobody keeps apart.
 
 Kennedy and Eberhart, "Particle swarm optimization", ICNN 1995, with the inertia of Shi and Eberhart, "A modified
-particle swarm optimizer", ICEC 1998; without memory, for the optimum moves.
+particle swarm optimizer", ICEC 1998; without memory, since the optimum moves.
 """
 
 from typing import Annotated, NamedTuple
@@ -15,7 +15,7 @@ class GlobalPso(NamedTuple):
     """Parameters."""
 
     inertia: Annotated[float, Range(), Says("omega: share of the velocity kept from one step to the next")] = 1.0
-    social: Annotated[float, Range(), Says("c: largest share of the way to the best wanted in one step")] = 0.5
+    social: Annotated[float, Range(), Says("c: largest share of the distance to the best wanted in one step")] = 0.5
 
 
 def decide(me, heard, memory, params, draw):

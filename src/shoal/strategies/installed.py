@@ -61,7 +61,7 @@ def _import(entry: EntryPoint, package: str) -> None:
         added = dict(CATALOGUE)
     except (Exception, SystemExit) as error:
         reason = error.args[1] if isinstance(error, StrategyError) else f"{type(error).__name__}: {error}"
-        raise StrategyError(package, f"{entry.value} cannot be imported: {reason}", "mend or uninstall it") from error
+        raise StrategyError(package, f"{entry.value} cannot be imported: {reason}", "update or uninstall it") from error
     finally:
         CATALOGUE.clear()
         CATALOGUE.update(added | before)

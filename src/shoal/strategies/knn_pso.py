@@ -16,7 +16,7 @@ class KnnPso(NamedTuple):
     """Parameters; the paper adds pure numbers per step, so social and repulsion_step act once per time-step."""
 
     inertia: Annotated[float, Range(), Says("omega: share of the velocity kept from one step to the next")] = 1.0
-    social: Annotated[float, Range(), Says("c: largest share of the way to the leader wanted in one step")] = 0.5
+    social: Annotated[float, Range(), Says("c: largest share of the distance to the leader wanted in one step")] = 0.5
     social_draws: Annotated[int, Choice(("scalar", "per-axis")), Says("r: one draw for both axes, or one each")] = 0
     follow: Annotated[int, Choice(("nearest", "lowest-index")), Says("which neighbor on target is followed")] = 0
     repulsion_start: Annotated[Meters, Range(), Says("a_R at the start")] = 0.5013256549262001
@@ -25,7 +25,7 @@ class KnnPso(NamedTuple):
     delta: Annotated[Meters, Range(), Says("growth of a_R in one step with nobody on target")] = 0.01
     shrink: Annotated[float, Range(), Says("deltas that a_R shrinks by in one step with somebody on target")] = 1.0
     repulsion_exponent: Annotated[float, Range(0.0, 100.0), Says("d: steepness of the repulsion")] = 6.0
-    repulsion_step: Annotated[Meters, Range(), Says("way that a neighbor at distance a_R pushes in one step")] = 1.0
+    repulsion_step: Annotated[Meters, Range(), Says("displacement by a neighbor at distance a_R in one step")] = 1.0
 
 
 def begin(me, memory, params, draw):
@@ -49,7 +49,7 @@ def influence(me, other, params):
 def decide(me, heard, memory, params, draw):
     """k-nearest PSO with adaptive repulsion: the paper's.
 
-    v <- omega v + (c r (Nbest - x) + repulsion_step sum_j (a_R / r_ij)^d (x_i - x_j) / r_ij) / dt     Eqs. 2-4
+    v <- omega v + (c r (Nbest - x) + repulsion_step sum_j (a_R / r_ij)^d (x_i - x_j) / r_ij) / dt     Eq. 2 + Eq. 4
     """
     contact = me.on_target or heard.found
     memory.repulsion = adapted(

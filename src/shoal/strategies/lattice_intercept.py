@@ -1,7 +1,7 @@
-"""Informed reference: a lattice whose agents meet the known target on its known way.
+"""Informed reference: a lattice whose agents meet the known target on its known path.
 
 Breaks the information rule: every agent is told where the target is, how fast, and to which waypoint it moves. An agent
-goes to the first point of that way where it can be within its sensor's reach in time (constant-bearing interception:
+goes to the first point of that path where it can be within its sensor's reach in time (constant-bearing interception:
 Isaacs, "Differential Games", Wiley 1965), if that point is near its station; else home.
 """
 
@@ -29,20 +29,20 @@ def begin(me, memory, params, draw):
 
 
 def decide(me, heard, memory, params, draw):
-    """KNOWS THE TARGET'S WAY: a lattice that intercepts it.
+    """KNOWS THE TARGET'S PATH: a lattice that intercepts it.
 
     meets at target + u t, with the first t >= 0 for which |target + u t - x| <= v t + sensor reach
     """
     truth = me.truth
     speed = math.sqrt(truth.vx * truth.vx + truth.vy * truth.vy)
-    way_x = truth.goal_x - truth.x
-    way_y = truth.goal_y - truth.y
-    way = math.sqrt(way_x * way_x + way_y * way_y)
-    bound = way > 0.0  # else it has no waypoint: straight on, as far as anybody knows
-    vx = speed * way_x / way if bound else truth.vx
-    vy = speed * way_y / way if bound else truth.vy
+    leg_x = truth.goal_x - truth.x
+    leg_y = truth.goal_y - truth.y
+    leg = math.sqrt(leg_x * leg_x + leg_y * leg_y)
+    bound = leg > 0.0  # else it has no waypoint: straight on, as far as anybody knows
+    vx = speed * leg_x / leg if bound else truth.vx
+    vy = speed * leg_y / leg if bound else truth.vy
     time = meeting_time(truth.x - me.x, truth.y - me.y, vx, vy, me.max_speed, me.briefing.reach)
-    if truth.present and (not bound or time * speed <= way):
+    if truth.present and (not bound or time * speed <= leg):
         x = truth.x + time * vx
         y = truth.y + time * vy
         dx = x - memory.station_x
@@ -54,7 +54,7 @@ def decide(me, heard, memory, params, draw):
 
 @kernel
 def meeting_time(dx, dy, vx, vy, speed, reach):
-    """First time at which who moves at `speed` can be within reach of a target dx, dy away with velocity vx, vy [s].
+    """First time [s] at which an agent of this speed can be within reach of a target dx, dy away with velocity vx, vy.
 
     The smaller positive root of (u^2 - v^2) t^2 + 2 (d.u - v reach) t + d^2 - reach^2 = 0; 1e9 if there is none.
     """

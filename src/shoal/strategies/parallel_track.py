@@ -3,7 +3,7 @@
 IAMSAR Manual, vol. II (IMO/ICAO), chapter 5: parallel sweep (PS). The area is cut into rows, and a snake through them
 into parts as large as the agents' shares of the summed top speeds, so that all finish together. Tracks run across the
 snake, one track spacing apart at most, half of it from the ends of the part in each row; they end a sensor's reach
-before the edges of the row. By the book: who sees a target carries on.
+before the edges of the row. By the book: an agent that sees a target carries on.
 """
 
 from typing import Annotated, NamedTuple
@@ -11,7 +11,7 @@ from typing import Annotated, NamedTuple
 from shoal.compiler.kernel import kernel
 from shoal.core.units import Range, Says
 from shoal.strategies.contract import strategy
-from shoal.strategies.parts import on_snake, rows_of, toward, way_point_reached
+from shoal.strategies.parts import on_snake, rows_of, toward, waypoint_reached
 
 
 class ParallelTrack(NamedTuple):
@@ -31,7 +31,7 @@ def decide(me, heard, memory, params, draw):
     """Parallel tracks; the area is divided by speed."""
     spacing = max(2.0 * me.briefing.reach * params.spacing, 1e-3 * me.briefing.half_x)
     x, y = corner(me, memory.leg, spacing)
-    if way_point_reached(me, x, y):
+    if waypoint_reached(me, x, y):
         memory.leg = (memory.leg + 1.0) % (4.0 * tracks_before(me, _ALL, spacing))
         x, y = corner(me, memory.leg, spacing)
     return toward(me, x, y)
@@ -39,7 +39,7 @@ def decide(me, heard, memory, params, draw):
 
 @kernel
 def corner(me, leg, spacing):
-    """Way point number `leg`: up one track and down the next to the end of the part, and back on the same way [m]."""
+    """Waypoint number `leg`: up one track and down the next to the end of the part, and back on the same tracks [m]."""
     count = 2 * tracks_before(me, _ALL, spacing)
     at = int(leg)
     if at >= count:

@@ -9,7 +9,8 @@ from shoal.compiler.kernel import kernel, overload
 def inverse_power(me, other, exponent):
     """One term of the paper's repulsion without a_R^d: r_ij^-d (x_i - x_j) / r_ij  [m^-d]. OCEANS 2020, Eq. 4.
 
-    The softening keeps agents at the same place finite: they give no push, having no direction.
+    me : Own, other : Report, x, y [m]; exponent : d [-]. The softening keeps agents at the same place finite: they give
+    no push, having no direction.
     """
     dx = me.x - other.x
     dy = me.y - other.y
@@ -47,7 +48,11 @@ def _raised(base, exponent):
 
 @kernel
 def adapted(repulsion, contact, low, high, grow, shrink):
-    """a_R after Algorithm 1 of OCEANS 2020, to the letter: test, then step, so it can end a step outside its range."""
+    """a_R after Algorithm 1 of OCEANS 2020, to the letter: test, then step, so it can end a step outside its range.
+
+    repulsion, low, high : a_R and its range [m]; contact : whether the agent or a neighbor is on target; grow, shrink :
+    the steps of a_R without and with contact [m]
+    """
     if contact:
         return repulsion - shrink if repulsion > low else repulsion
     return repulsion + grow if repulsion < high else repulsion
@@ -71,8 +76,8 @@ def toward(me, x, y):
 
 
 @kernel
-def way_point_reached(me, x, y):
-    """Whether the agent can be at a way point within this step."""
+def waypoint_reached(me, x, y):
+    """Whether agent `me` can be at the waypoint (x, y) [m] within this step."""
     dx = x - me.x
     dy = y - me.y
     step = me.max_speed * me.time_step
@@ -97,7 +102,7 @@ def own_station(me, spread):
 def station(i, agents, half_x, half_y):
     """Place of agent i in the most even cover of a box of +- half_x, half_y by rows [m].
 
-    Rows differ by one agent at most. Agents go to every so many-th place, so that a fleet, whose ids follow each other,
+    Rows differ by one agent at most. Agents go to every n-th place, so that a fleet, whose ids follow each other,
     is spread over the whole box.
     """
     place = (i * _stride(agents)) % agents
@@ -120,7 +125,7 @@ def rows_of(agents, half_x, half_y):
 
 @kernel
 def on_snake(me, share):
-    """The point `share` (0 to 1) of the way along the snake that the area is divided by, in the middle of its row [m].
+    """The point `share` (0 to 1) along the snake that the area is divided into, in the middle of its row [m].
 
     The area is cut into rows, and a snake runs through them, east in the first and back west in the next. An agent's
     part is a piece of the snake as long as its share of the summed top speeds: all parts are searched equally fast.

@@ -82,7 +82,7 @@ def _load_file(choice: dict[str, Any]) -> dict[str, Any]:
     path = Path(choice["file"])
     try:
         if path.suffix != ".py" and path.is_file():
-            raise StrategyError(str(path), "is no Python file", "name a file that ends in .py")
+            raise StrategyError(str(path), "is not a Python file", "name a file that ends in .py")
         text = path.read_bytes()
     except OSError as error:
         raise StrategyError(str(path), f"cannot be read: {error.strerror}", "name a Python file") from None
@@ -136,7 +136,7 @@ def _new_strategies(path: Path, before: dict[str, Strategy]) -> dict[str, Strate
 def _execute(path: Path, module_name: str) -> None:
     spec = importlib.util.spec_from_file_location(module_name, path)
     if spec is None or spec.loader is None:
-        raise StrategyError(str(path), "is no Python file", "name a file that ends in .py")
+        raise StrategyError(str(path), "is not a Python file", "name a file that ends in .py")
     module = importlib.util.module_from_spec(spec)
     sys.modules[module_name] = module
     try:
@@ -147,7 +147,7 @@ def _execute(path: Path, module_name: str) -> None:
     except (Exception, SystemExit) as error:
         line = error.lineno if isinstance(error, SyntaxError) else line_in(error.__traceback__, path)
         raise StrategyError(
-            f"{path}:{line}" if line else str(path), f"{type(error).__name__}: {error}", "mend it"
+            f"{path}:{line}" if line else str(path), f"{type(error).__name__}: {error}", "correct it"
         ) from error
 
 

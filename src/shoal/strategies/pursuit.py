@@ -1,6 +1,6 @@
 """Informed reference: greedy pursuit of the known target. Breaks the information rule: agents are told where it is.
 
-Classical (pure) pursuit: Isaacs, "Differential Games", Wiley 1965. What knowing the target is worth to who runs after.
+Classical (pure) pursuit: Isaacs, "Differential Games", Wiley 1965. What knowing the target is worth to a pursuer.
 """
 
 from typing import NamedTuple

@@ -3,7 +3,7 @@
 IAMSAR Manual, vol. II (IMO/ICAO), chapter 5: sector search (VS): legs of one radius out of the datum, across and back
 through it, turns of 120 degrees to the right, so that three triangles meet in the datum; the next pattern is turned by
 30 degrees. The disc is as large as the agent's part of the area, which is its share of the summed top speeds; at the
-edge of the area it is cut off. By the book: who sees a target carries on.
+edge of the area it is cut off. By the book: an agent that sees a target carries on.
 """
 
 import math
@@ -12,7 +12,7 @@ from typing import Annotated, NamedTuple
 from shoal.compiler.kernel import kernel
 from shoal.core.units import Range, Says
 from shoal.strategies.contract import strategy
-from shoal.strategies.parts import inside, middle_of_part, size_of_part, toward, way_point_reached
+from shoal.strategies.parts import inside, middle_of_part, size_of_part, toward, waypoint_reached
 
 
 class SectorSearch(NamedTuple):
@@ -34,7 +34,7 @@ def decide(me, heard, memory, params, draw):
     radius = params.size * math.sqrt(size_of_part(me) / math.pi)
     x, y = corner(memory.leg)
     goal_x, goal_y = inside(me, memory.datum_x + radius * x, memory.datum_y + radius * y)
-    if way_point_reached(me, goal_x, goal_y):
+    if waypoint_reached(me, goal_x, goal_y):
         memory.leg = (memory.leg + 1.0) % 108.0  # 12 patterns of 9 legs: 12 x 30 degrees
         x, y = corner(memory.leg)
         goal_x, goal_y = inside(me, memory.datum_x + radius * x, memory.datum_y + radius * y)

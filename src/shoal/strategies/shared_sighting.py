@@ -19,7 +19,7 @@ class SharedSighting(NamedTuple):
     """Parameters; those of knn-pso, and the memory's."""
 
     inertia: Annotated[float, Range(), Says("omega: share of the velocity kept from one step to the next")] = 1.0
-    social: Annotated[float, Range(), Says("c: largest share of the way to the sighting wanted in one step")] = 0.5
+    social: Annotated[float, Range(), Says("c: largest share of the distance to the sighting wanted in one step")] = 0.5
     max_age: Annotated[
         Seconds, Range(), Says("an older sighting attracts nobody; 3 m/s leave a reach of 1 m in 0.33 s")
     ] = 0.3
@@ -28,7 +28,7 @@ class SharedSighting(NamedTuple):
     repulsion_max: Annotated[Meters, Range(), Says("a_R grows while below this and none is")] = 1.5
     delta: Annotated[Meters, Range(), Says("change of a_R in one step")] = 0.01
     repulsion_exponent: Annotated[float, Range(0.0, 100.0), Says("d: steepness of the repulsion")] = 6.0
-    repulsion_step: Annotated[Meters, Range(), Says("way that a neighbor at distance a_R pushes in one step")] = 1.0
+    repulsion_step: Annotated[Meters, Range(), Says("displacement by a neighbor at distance a_R in one step")] = 1.0
 
 
 def begin(me, memory, params, draw):

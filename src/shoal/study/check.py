@@ -8,7 +8,7 @@ from shoal.scenario.load import Source, load
 
 
 def check(scenario: Source, **changes: Any) -> list[str]:
-    """Prove a scenario, its strategies and its recorded tracks; return notes of what was assumed or dropped.
+    """Check a scenario, its strategies and its recorded tracks; return notes of what was assumed or dropped.
 
     >>> shoal.check("mine.toml", neighbors=10)
 
@@ -19,7 +19,7 @@ def check(scenario: Source, **changes: Any) -> list[str]:
 
     Raises
     ------
-    ScenarioError, TrackError, StrategyError : it cannot run: where, why, and how to mend it
+    ScenarioError, TrackError, StrategyError : it cannot run: where, why, and how to fix it
     """
     known = load(scenario, **changes)
     crew_of(known)

@@ -9,7 +9,6 @@ from shoal.core.errors import MissingExtraError, ScenarioError, UnknownNameError
 from shoal.core.keywords import lists_keywords, split_keywords
 from shoal.core.sheet import Sheet
 from shoal.experiments.cells import make_cells
-from shoal.experiments.compare import comparison_design, run_comparison, values_of
 from shoal.experiments.comparison import Comparison, Condition, Standing
 from shoal.experiments.comparison import compare as compare_values
 from shoal.experiments.comparison_words import (
@@ -24,6 +23,7 @@ from shoal.experiments.compiled_first import compiled_first
 from shoal.experiments.contenders import contenders
 from shoal.experiments.executors import Executor, in_threads
 from shoal.experiments.replicate import Row
+from shoal.experiments.run_comparison import comparison_design, run_comparison, values_of
 from shoal.experiments.sweep import Progress
 from shoal.metrics.summary import METRICS, bounds_of
 from shoal.scenario.edit import check_words
@@ -226,7 +226,7 @@ def compared(
     metric, baseline = options.metric, options.baseline
     if metric not in METRICS:
         hint = did_you_mean(metric, METRICS)
-        raise ScenarioError(f"metric {metric}", "is no metric", f"{hint}there are: {', '.join(METRICS)}")
+        raise ScenarioError(f"metric {metric}", "is not a metric", f"{hint}there are: {', '.join(METRICS)}")
     everybody = contenders(named)
     names = [each.name for each in everybody]
     if baseline is not None and baseline not in names:

@@ -62,7 +62,7 @@ def __dir__() -> list[str]:
     return __all__
 
 
-if not TYPE_CHECKING:  # type checkers shall go on to know what there is
+if not TYPE_CHECKING:  # hidden from type checkers, which know the names
 
     def __getattr__(name: str) -> Any:
         raise no_attribute("shoal.plot", name, __all__)
@@ -96,6 +96,7 @@ def snapshot(
     links : draw a line to the k nearest others of each buoy
     trail : steps of the targets' trails (the buoys' are a third of it), 0 for none
     halos, sensors : draw discs of radius a_R, circles as wide as sensors reach
+    axes : matplotlib axes to draw into, in our look; default: a new figure
 
     Raises
     ------
@@ -125,6 +126,7 @@ def trajectory_map(
     run : number of a run that kept a trajectory; default the first of those
     start, steps, every : the steps shown; default the last in which the fastest buoy can cross the
         arena once
+    axes : matplotlib axes to draw into, in our look; default: a new figure
 
     Raises
     ------
@@ -139,7 +141,7 @@ def trajectory_map(
 def phi_histogram(
     records: AnyRecord | Sequence[AnyRecord] | Mapping[str, AnyRecord], *, axes: "Axes | None" = None
 ) -> "Figure":
-    """Who heads where relative to the target, Eq. 8: `plot.phi_histogram({"k = 10": low, "k = 40": high})`.
+    """Headings relative to the target, Eq. 8: `plot.phi_histogram({"k = 10": low, "k = 40": high})`.
 
     Parameters
     ----------
@@ -171,7 +173,13 @@ def phi_histogram(
 
 
 def time_on_target(record: AnyRecord, *, axes: "Axes | None" = None) -> "Figure":
-    """Time on target over the course of each run, its mean and interval: `plot.time_on_target(record)`."""
+    """Time on target over the course of each run, its mean and interval: `plot.time_on_target(record)`.
+
+    Parameters
+    ----------
+    record : a record or its folder
+    axes : matplotlib axes to draw into, in our look; default: a new figure
+    """
     record = _record(record)
     return _drawn(axes, (_CHART, _RIGHT, _TOP), lambda into: draw_batches(into, record))
 
@@ -192,6 +200,7 @@ def curves(
     x : field on the horizontal axis; default the numeric one with most values
     y : metric on the vertical axis
     hue : field that makes one curve per value; default the next field that varies
+    axes : matplotlib axes to draw into, in our look; default: a new figure
 
     Raises
     ------
@@ -199,21 +208,25 @@ def curves(
     """
     fields, rows = varied_rows(results)
     if y not in METRICS:
-        raise ScenarioError(f"y {y}", "is no metric", f"{did_you_mean(y, METRICS)}there are: {', '.join(METRICS)}")
+        raise ScenarioError(f"y {y}", "is not a metric", f"{did_you_mean(y, METRICS)}there are: {', '.join(METRICS)}")
     x = x or default_x(fields, rows)
     hue = hue or next((name for name in fields if name != x), None)
     names = [name for name in (hue, x) if name]
     unknown = [name for name in names if rows and name not in rows[0]]
     if unknown:
         hint = did_you_mean(unknown[0], fields)
-        raise ScenarioError(f"field {unknown[0]}", "is none of this sweep", f"{hint}there are: {', '.join(fields)}")
+        raise ScenarioError(
+            f"field {unknown[0]}", "is not a field of this sweep", f"{hint}there are: {', '.join(fields)}"
+        )
     made: dict[Any, Curve] = {}
     for group in aggregate(rows, names, [y]):
         label = plain(f"{hue} {group[hue]}".replace("_", " ")) if hue else ""
         curve = made.setdefault(label, Curve(label))
         curve.add(group[x], group[y], group[f"{y}_low"], group[f"{y}_high"])
     if not made:
-        raise ScenarioError("results", "hold no run that ended well", "see the column error, mend it, run them again")
+        raise ScenarioError(
+            "results", "hold no run that ended well", "see the column error, fix the cause and run them again"
+        )
     labels = field_words(x), METRICS[y].words, METRICS[y].unit
     if axes is None:
         return sweep_page(list(made.values()), *labels)
@@ -226,7 +239,12 @@ def summary(record: AnyRecord) -> "Figure":
 
 
 def save(figure: "Figure", path: str | Path) -> None:
-    """Write a figure as .png, .svg or .pdf; the same figure gives the same bytes: `plot.save(figure, "fig.svg")`.
+    """Write a figure; the same figure gives the same bytes: `plot.save(figure, "fig.svg")`.
+
+    Parameters
+    ----------
+    figure : what a function of this module returned, or any matplotlib Figure
+    path : a file .png, .svg or .pdf
 
     Raises
     ------
@@ -240,7 +258,9 @@ def _record(what: AnyRecord) -> Record:
     if isinstance(what, (str, Path)):
         return open_record(what)
     if not isinstance(what, Record):
-        raise RecordError(type(what).__name__, "is no record", "give what shoal.simulate returns, or a record's folder")
+        raise RecordError(
+            type(what).__name__, "is not a record", "give what shoal.simulate returns, or a record's folder"
+        )
     return what
 
 

@@ -138,7 +138,7 @@ def sweep(scenario: Source, vary: Mapping[str, Values], **changes: Any) -> Swept
     runs : replicates of each combination; run r shares its chance in all of them
     mode : grid - every combination; zip - the first values of all fields, then the second, and so on
     until_ci : add replicates to each combination until the 95 % interval of its time on target is narrower than this
-    max_runs : but no more than so many
+    max_runs : most replicates of each combination then
     independent : give every combination a seed of its own
     jobs : threads, one run each; default one per core
     out : keep all runs in this folder; the same call again resumes, and adds what is new

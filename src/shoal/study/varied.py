@@ -18,7 +18,7 @@ def varied(vary: Mapping[str, Values]) -> dict[str, list[Any]]:
 
     Raises
     ------
-    ScenarioError : `vary` is no mapping, or a field has no values
+    ScenarioError : `vary` is not a mapping, or a field has no values
     """
     if not isinstance(vary, Mapping) or not all(isinstance(name, str) for name in vary):
         raise ScenarioError("vary", f"is {vary!r:.60}", 'write vary={"neighbors": [10, 20, 30]}')

@@ -23,7 +23,7 @@ def choose(path: Path, table: Table, wanted: Wanted, day_first: bool | None) -> 
 
     Raises
     ------
-    TrackError : the file holds several tracks and none is named, the one that is named is not there, or a value
+    TrackError : the file holds several tracks and none is named, the one that is named is missing, or a value
         cannot be read
     """
     rows = np.arange(len(table.line))
@@ -125,14 +125,14 @@ def _times(
         if outside.size:
             raise TrackError(
                 table.place(int(table.line[rows[outside[0]]])),
-                f"time {unix[outside[0]]:g} is no unix time in the years 1 to 9999",
+                f"time {unix[outside[0]]:g} is not a Unix time in the years 1 to 9999",
                 "check the units of time, or remove the fix",
             )
         return unix, []
-    here = rows[present]
-    texts = [table.time[i] for i in here.tolist()]
+    kept = rows[present]
+    texts = [table.time[i] for i in kept.tolist()]
     times, notes = unix_times(
-        texts, lambda i: table.place(int(table.line[here[i]])), day_first=day_first, layout=table.day_first
+        texts, lambda i: table.place(int(table.line[kept[i]])), day_first=day_first, layout=table.day_first
     )
     unix = np.full(len(rows), np.nan)
     unix[present] = times
@@ -162,7 +162,7 @@ def _refuse_unnamed(path: Path, table: Table, rows: NDArray[np.intp], fixes: Fix
 
 
 def _note_columns(table: Table, rows: NDArray[np.intp]) -> list[str]:
-    """Columns of words, or of numbers one after the other, that repeat: who knows them as vehicles should be told."""
+    """Columns of words, or of numbers one after the other, that repeat: the user may know them as vehicles."""
     notes = []
     for column, label in table.labels.items():
         codes = label.codes[rows]

@@ -46,7 +46,7 @@ def clean(path: Path, fixes: Fixes, max_speed: float) -> tuple[Fixes, list[str]]
 def longest_path(path: Path, fixes: Fixes, max_speed: float) -> NDArray[np.bool_]:
     """Return which fixes form the longest chain in which each is within reach of the one before.
 
-    Reach is transitive (who gets from a to b and from b to c gets from a to c), so a chain is as good as its last
+    Reach is transitive (from a to b and from b to c is from a to c), so a chain is as good as its last
     fix, and the longest that ends at fix i is one longer than the longest that ends anywhere within reach of i:
 
     level_i = 1 + max level_j     over j < i with |p_i - p_j| <= max_speed (t_i - t_j), t_j < t_i

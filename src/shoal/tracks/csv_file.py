@@ -90,7 +90,7 @@ class _Sieve:
             label = table.labels[several.column]
             self.counts.update(label.values[code] for code in label.codes.tolist())
             self.column, self.at, self.open = several.column, self.columns.index(several.column), False
-        except TrackError:  # it will be told of the whole file
+        except TrackError:  # the error will name the whole file
             return
 
     def count(self, rows: list[list[str]]) -> None:

@@ -20,12 +20,12 @@ def geojson_table(path: Path, wanted: Wanted) -> Table:
 
     Raises
     ------
-    TrackError : it is no JSON, holds no positions, or a line has not as many times as positions
+    TrackError : it is not JSON, holds no positions, or a line has not as many times as positions
     """
     try:
         content = json.loads(path.read_text(encoding="utf-8-sig"), parse_int=str, parse_float=str)
     except json.JSONDecodeError as error:
-        raise TrackError(f"{path}:{error.lineno}", f"is no JSON ({error.msg})", "export the track again") from error
+        raise TrackError(f"{path}:{error.lineno}", f"is not JSON ({error.msg})", "export the track again") from error
     points, lines = Points(), Points(("track",))
     for index, feature in enumerate(_features(content)):
         place = f"{path} feature {index}"
@@ -55,15 +55,15 @@ def _features(content: Any) -> Iterator[dict[str, Any]]:
     """The features of a collection, or of several inside each other."""
     unread = [content]
     while unread:
-        here = unread.pop()
-        if isinstance(here, list):
-            unread += reversed(here)
-        elif isinstance(here, dict):
-            inside = here.get("features")
+        node = unread.pop()
+        if isinstance(node, list):
+            unread += reversed(node)
+        elif isinstance(node, dict):
+            inside = node.get("features")
             if isinstance(inside, list):
                 unread += reversed(inside)
             else:
-                yield here if here.get("type") == "Feature" else {"geometry": here, **here}
+                yield node if node.get("type") == "Feature" else {"geometry": node, **node}
 
 
 def _is_scalar(value: Any) -> bool:
@@ -102,12 +102,12 @@ def _moving(
         yield _paired(place, times or [""] * len(positions), positions)
     elif geometry.get("type") == "MultiLineString":
         pieces = [_list(each) for each in positions]
-        whole = _list(times) or [[""] * len(piece) for piece in pieces]
-        if whole and not isinstance(whole[0], list):
-            whole, pieces = [whole], [[each for piece in pieces for each in piece]]
-        if len(whole) != len(pieces):
-            raise _unpaired(place, len(whole), len(pieces))
-        for some, piece in zip(whole, pieces, strict=True):
+        lists = _list(times) or [[""] * len(piece) for piece in pieces]
+        if lists and not isinstance(lists[0], list):
+            lists, pieces = [lists], [[each for piece in pieces for each in piece]]
+        if len(lists) != len(pieces):
+            raise _unpaired(place, len(lists), len(pieces))
+        for some, piece in zip(lists, pieces, strict=True):
             yield _paired(place, _list(some), piece)
 
 

@@ -14,7 +14,7 @@ def gpx_table(path: Path, wanted: Wanted) -> Table:
 
     Raises
     ------
-    TrackError : it is no XML, or holds no track
+    TrackError : it is not XML, or holds no track
     """
     root = xml_tree(path, "GPX")
     tracks = root.findall("trk")

@@ -16,7 +16,7 @@ def kml_table(path: Path, wanted: Wanted) -> Table:
 
     Raises
     ------
-    TrackError : it is no XML, or holds no track with times
+    TrackError : it is not XML, or holds no track with times
     """
     root = xml_tree(path, "KML")
     tracked = Points(("track", "name"))

@@ -64,7 +64,7 @@ def plain(name: str) -> str:
 
 
 def find(columns: Sequence[str], names: Sequence[str], like: str = "") -> int | None:
-    """The index of the column that is called like the first of `names` that is there, or else matches `like`."""
+    """The index of the first of `names` that is a column, or else of the column that matches `like`."""
     there = [plain(column) for column in columns]
     exact = next((there.index(name) for name in names if name in there), None)
     if exact is not None or not like:

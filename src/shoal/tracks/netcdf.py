@@ -112,7 +112,7 @@ def _check_dimensions(path: Path, lat: Any, lon: Any, time: Any) -> None:
         described = ", ".join(f"{v.name}({', '.join(v.dimensions)})" for v in (lat, lon, time))
         raise TrackError(
             str(path),
-            f"{described} is no trajectory; is it a grid?",
+            f"{described} is not a trajectory; is it a grid?",
             "store CF trajectories: lat, lon and time over (obs) or (trajectory, obs)",
         )
 
@@ -126,7 +126,7 @@ def _decoded_time(path: Path, netcdf4: Any, variable: Any) -> Any:
     if scale is None or not reference or calendar.lower() not in REAL_CALENDARS:
         raise TrackError(
             f"{path} {variable.name}",
-            f"units {units!r} in calendar {calendar!r} is no time that was recorded",
+            f"units {units!r} in calendar {calendar!r} is not a time that was recorded",
             "use units such as 'seconds since 1970-01-01' and the standard calendar",
         )
     seconds = np.ma.masked_invalid(variable[...].astype(np.float64)) * scale

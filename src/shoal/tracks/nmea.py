@@ -174,8 +174,8 @@ def _own_fix(fields: list[str]) -> tuple[str, str, str]:
 
 
 def _degrees(text: str, side: str) -> str:
-    whole, _, _ = text.partition(".")
-    if not 3 <= len(whole) <= 5 or not text.replace(".", "", 1).isdecimal():
+    before, _, _ = text.partition(".")
+    if not 3 <= len(before) <= 5 or not text.replace(".", "", 1).isdecimal():
         return ""
-    degrees = int(whole[:-2]) + float(text[len(whole) - 2 :]) / 60.0
+    degrees = int(before[:-2]) + float(text[len(before) - 2 :]) / 60.0
     return f"{-degrees if side in ('S', 'W') else degrees:.9f}"

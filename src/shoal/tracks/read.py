@@ -22,7 +22,7 @@ from shoal.tracks.wanted import parse_wanted
 SHORTEST_MAX_GAP = 300.0  # [s]
 USUAL_INTERVALS_PER_GAP = 5.0
 SETTLED = 2.0  # [s] a file that changed less long ago may change again within one tick of its clock
-REMEMBERED = 8  # tracks: who follows one reads it for the arena and again for the run
+REMEMBERED = 8  # tracks: one that is followed is read for the arena and again for the run
 
 
 def read_track(
@@ -44,7 +44,7 @@ def read_track(
     origin : (lon, lat) [deg] of local (0, 0); default the center of the track's bounding box
     max_gap : [s] default 300 s or five median intervals, whichever is longer
     max_speed : [m/s] a fix that can only be reached faster is a GPS jump and is dropped
-    day_first : whether 10/03/2024 is in March; default told by the data
+    day_first : whether 10/03/2024 is in March; default inferred from the data
 
     Raises
     ------
@@ -96,7 +96,7 @@ def _check_options(origin: tuple[float, float] | None, max_gap: float | None, ma
     if origin is not None and not (-180.0 <= origin[0] <= 360.0 and -90.0 <= origin[1] <= 90.0):
         raise TrackError(
             "origin",
-            f"({origin[0]}, {origin[1]}) is no place on Earth",
+            f"({origin[0]}, {origin[1]}) is not a place on Earth",
             "give (lon, lat) [deg], longitude first",
         )
 

@@ -50,7 +50,7 @@ def unix_times(
     ----------
     texts : as the file has them
     where : names the file and the line of texts[i]
-    day_first : of dates such as 10/03/2024; None: told by the data
+    day_first : of dates such as 10/03/2024; None: inferred from the data
     layout : the same, as the file's layout suggests it; the data and `day_first` go before
 
     Raises
@@ -121,7 +121,7 @@ def _scaled(
     if outside.size:
         raise TrackError(
             where(int(outside[0])),
-            f"time {texts[outside[0]]} is no unix time in the years 1 to 9999",
+            f"time {texts[outside[0]]} is not a Unix time in the years 1 to 9999",
             "write ISO 8601, such as 2022-01-03T00:05:07Z, or unix seconds",
         )
     return unix, [f"Times that are plain numbers were taken as unix {unit}."]

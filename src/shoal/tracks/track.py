@@ -15,13 +15,13 @@ class Track:
     y: NDArray[np.float64]  # (F,) [m] north of origin
     origin: tuple[float, float]  # (lon, lat) [deg] of local (0, 0)
     start: str  # ISO 8601 UTC time of the first fix
-    max_gap: float  # [s] longer silence between two fixes means: the target is not there
+    max_gap: float  # [s] longer silence between two fixes means that the target is absent
     notes: tuple[str, ...]  # what was dropped or assumed, one sentence each
     digest: str  # sha256 hex over time, x, y bytes and max_gap
 
 
 def position_at(track: Track, t: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
-    """Return where the target is at `t` [s], and whether it is there at all.
+    """Return where the target is at `t` [s], and whether it is present.
 
     p(t) = p_i + (p_i+1 - p_i) (t - t_i) / (t_i+1 - t_i)     for t_i <= t <= t_i+1
 

@@ -59,7 +59,7 @@ def tells_vehicles_apart(fixes: Fixes, label: Labels, *, attribute: bool = False
 
 
 def _is_measured(label: Labels, codes: NDArray[Any]) -> bool:
-    """Whether the values are numbers with decimals: a temperature is no name."""
+    """Whether the values are numbers with decimals: a temperature is not a name."""
     numbers = np.array([number(label.values[code]) for code in codes[:LOOKED_AT]])
     return bool(np.any(numbers[np.isfinite(numbers)] % 1.0 > 0.0))
 

@@ -12,7 +12,7 @@ def xml_tree(path: Path, kind: str) -> ElementTree.Element:
 
     Raises
     ------
-    TrackError : it is no XML, or has a DOCTYPE
+    TrackError : it is not XML, or has a DOCTYPE
     """
     builder = ElementTree.TreeBuilder()
     parser = expat.ParserCreate()

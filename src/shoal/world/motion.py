@@ -40,7 +40,7 @@ def maneuvered(vx, vy, wanted_x, wanted_y, turn, change):
 
 @kernel
 def moved(place, command, clamp, time_step):
-    """Advance along one axis by a time-step and stop at the wall: place [m] and velocity [m/s] after it.
+    """Advance along one axis by a time-step, Eq. 3, and stop at the wall: place [m] and velocity [m/s] after it.
 
     At the wall the velocity becomes the displacement really made. An agent that starts outside the wall is put inside,
     which is no motion of its own: it counts from the wall on.

@@ -5,9 +5,9 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from shoal.cli.numbers import MaybeInteger
 from shoal.cli.places import check_places
 from shoal.cli.startup import load_compiler
-from shoal.cli.whole import MaybeWhole
 
 SCENARIO, METRIC = "oceans2020", "time_on_target"
 
@@ -16,14 +16,14 @@ def compare(
     *strategies: str,
     scenario: str | None = None,
     suite: str | None = None,
-    runs: MaybeWhole = None,
-    steps: MaybeWhole = None,
-    seed: MaybeWhole = None,
+    runs: MaybeInteger = None,
+    steps: MaybeInteger = None,
+    seed: MaybeInteger = None,
     vary: Annotated[list[str] | None, Parameter(negative=(), consume_multiple=False)] = None,
     assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
     metric: str | None = None,
     baseline: str | None = None,
-    jobs: MaybeWhole = None,
+    jobs: MaybeInteger = None,
     out: Path | None = None,
     figure: Path | None = None,
     markdown: Path | None = None,

@@ -40,14 +40,14 @@ def leaderboard_data(board: Leaderboard) -> dict[str, Any]:
         "score": _standings(board.overall),
         "conditions": [
             {
-                "name": told.name,
-                "says": told.says,
-                "metric": told.metric,
-                "whole": told.whole,
-                "changes": told.changes,
+                "name": condition.name,
+                "says": condition.says,
+                "metric": condition.metric,
+                "out_of": condition.out_of,
+                "changes": condition.changes,
                 "strategies": _standings(found),
             }
-            for told, found in zip(suite.conditions, board.shares.conditions, strict=True)
+            for condition, found in zip(suite.conditions, board.shares.conditions, strict=True)
         ],
     }
 

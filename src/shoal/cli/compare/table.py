@@ -29,8 +29,8 @@ def print_comparison(comparison: Comparison, metric: str, direction: int, about:
     console = results_console()
     words = {1: "more is better", -1: "less is better", 0: "neither more nor less is better"}[direction]
     runs = f"{about['runs']} run{'s' * (about['runs'] > 1)}"
-    told = f": {runs} of {about['steps']:,} steps, seed {about['seed']}"
-    console.print(styled(about["scenario"], "bold") + styled(told, ""))
+    text = f": {runs} of {about['steps']:,} steps, seed {about['seed']}"
+    console.print(styled(about["scenario"], "bold") + styled(text, ""))
     unit = METRICS[metric].unit
     console.print(
         f"{metric.replace('_', ' ')}{'' if unit == '1' else f' [{unit}]'}: {METRICS[metric].sentence}; {words}"
@@ -60,11 +60,11 @@ def print_comparison(comparison: Comparison, metric: str, direction: int, about:
 def print_leaderboard(board: Leaderboard) -> None:
     """Print the ranking by score, then the shares under every condition."""
     console, suite = results_console(), board.suite
-    told = (
+    text = (
         f": {suite.runs} runs of {suite.steps:,} steps under each of {len(suite.conditions)} conditions, seed "
         f"{suite.seed}, suite hash {board.hash}"
     )
-    console.print(styled(suite.name, "bold") + styled(told, ""))
+    console.print(styled(suite.name, "bold") + styled(text, ""))
     console.print("score: mean share over all conditions\n")
     columns: list[_Column] = [
         ("score", value_text),

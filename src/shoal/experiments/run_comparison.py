@@ -71,9 +71,9 @@ def by_condition(
     return list(found.values())
 
 
-def values_of(strategies: Mapping[str, Sequence[Row | None]], metric: str, whole: float = 1.0) -> Values:
-    """Return a metric / whole of every run of each strategy, (R,); NaN for a run that failed or has none."""
-    return {name: np.array([_value(row, metric) for row in rows]) / whole for name, rows in strategies.items()}
+def values_of(strategies: Mapping[str, Sequence[Row | None]], metric: str, out_of: float = 1.0) -> Values:
+    """Return a metric / out_of of every run of each strategy, (R,); NaN for a run that failed or has none."""
+    return {name: np.array([_value(row, metric) for row in rows]) / out_of for name, rows in strategies.items()}
 
 
 def _value(row: Row | None, metric: str) -> float:

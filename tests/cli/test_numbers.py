@@ -1,4 +1,4 @@
-"""Whole numbers are not rounded."""
+"""Integer numbers are not rounded."""
 
 import pytest
 
@@ -21,5 +21,5 @@ from shoal.cli.main import BAD_INPUT, run_command
 def test_a_broken_number_is_refused(command, option, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert run_command([*command, option, "1.5"]) == BAD_INPUT
-    assert f"Invalid value for {option}: '1.5' is no whole number" in capsys.readouterr().err
+    assert f"Invalid value for {option}: '1.5' is not a whole number" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
