@@ -212,5 +212,5 @@ class TestSumsOfOtherDays:
             running.state() | {"fish": np.ones(3)},
         ):
             write_state(tmp_path / "other.npz", running._identity(), arrays)
-            with pytest.raises(RecordError, match="is no saved state"):
+            with pytest.raises(RecordError, match="is not a saved state"):
                 Simulation(chosen).restore(tmp_path / "other.npz")

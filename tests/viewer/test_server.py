@@ -271,7 +271,7 @@ class TestServing:
 
     @pytest.mark.parametrize("host", ["192.0.2.1", "no.such.name.invalid"])
     def test_an_address_that_is_not_ours_is_one_sentence(self, host):
-        with pytest.raises(ShoalError, match=r"--host: .* is no address of this machine"):
+        with pytest.raises(ShoalError, match=r"--host: .* is not an address of this machine"):
             serving(page_app(""), host=host).__enter__()
 
     def test_an_impossible_port_is_one_sentence(self):

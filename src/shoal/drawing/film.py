@@ -45,7 +45,7 @@ PLAIN = FilmLook()
 
 
 class Film(NamedTuple):
-    """What was written: a film of so many frames, of the steps first to last, one in `every`; its size [pixel]."""
+    """What was written: number of frames, of the steps first to last, one in `every`; its size [pixel]."""
 
     file: Path
     frames: int

@@ -38,7 +38,7 @@ class FilmSize(NamedTuple):
 
 
 def film_size(record: Record, width: int, height: int | None, parts: Parts, panels: bool) -> FilmSize:
-    """The size of a film of so many pixels; without a height the arena decides."""
+    """The size of a film in pixels; without a height the arena decides."""
     width -= width % 2
     dpi = _dpi(min(width, height or width))
     if height is None:
@@ -82,8 +82,8 @@ class FilmPage:
         time.set_text(f"step {count(step)}  \u00b7  {step * self._record.facts.time_step:.1f} s")
         state.set_text(state_text(self._frames, frame))
         state.set_color(TARGET if self._on_target[number] else GRAY)
-        told = np.isfinite(self._share[number]) and self._share.size > 1
-        share.set_text(f"time on target {100 * self._share[number]:.0f} %" if told else "")
+        known = np.isfinite(self._share[number]) and self._share.size > 1
+        share.set_text(f"time on target {100 * self._share[number]:.0f} %" if known else "")
         colors = self._strip_colors.copy()
         colors[number + 1 :] = _AHEAD
         self._strip.set_data(colors[None])

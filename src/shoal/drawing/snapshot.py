@@ -78,7 +78,7 @@ def _moment(record: Record, frames: Trajectory, run: int, last: int) -> str:
 
 
 def state_text(frames: Trajectory, at: int) -> str:
-    """Who is there at a frame: 2 on target; or target absent; false alarms; how many of the buoys, if not all."""
+    """What is present at a frame: 2 on target; or target absent; false alarms; how many of the buoys, if not all."""
     engaged, alarms = int(frames.engaged[at].sum()), int((frames.on_target[at] & ~frames.engaged[at]).sum())
     there, agents = int(frames.alive[at].sum()), frames.alive.shape[1]
     state = f"{engaged} on target" if frames.target_present[at].any() else "target absent"

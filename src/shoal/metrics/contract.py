@@ -44,7 +44,7 @@ class Step(NamedTuple):
 class Facts(NamedTuple):
     """What metrics need to know of a scenario.
 
-    fleets, counts, max_speeds : name, number of agents (those who join later too) and top speed [m/s] of each fleet
+    fleets, counts, max_speeds : name, number of agents (those that join later too) and top speed [m/s] of each fleet
     unit [m] : one arena unit; time_step [s]; area [m^2]; report_bytes : size of one report [B]
     """
 

@@ -15,11 +15,11 @@ Arrays = Mapping[str, npt.NDArray[Any]]
 
 
 def write_state(file: str | Path, identity: str, arrays: Arrays) -> None:
-    """Write arrays and whose they are, whole or not at all; replace a saved state of this name.
+    """Write arrays and whose they are, atomically; replace a saved state of this name.
 
     Raises
     ------
-    RecordError : it cannot be written, or something else is there
+    RecordError : it cannot be written, or something else has that name
     """
     checksum = _sum_of(identity, arrays)
     with atomic_file(file, ours=True) as partial, partial.open("wb") as stream:

@@ -70,7 +70,7 @@ class Trajectory:
         memory = f"; memory: {plain(', '.join(self.memory))}" if self.memory else ""
         return f"of {frames:,} frames{steps}: {agents} agents, {targets} target{'s' * (targets != 1)}{memory}"
 
-    if not TYPE_CHECKING:  # type checkers shall go on to know what there is
+    if not TYPE_CHECKING:  # hidden from type checkers, which know the names
 
         def __getattr__(self, name: str) -> Any:
             raise no_attribute("a Trajectory", name, (*_PLAIN, "memory", "arrays"))
@@ -100,7 +100,7 @@ class Trajectory:
 
 
 class _Memory(dict[str, npt.NDArray[np.float64]]):
-    """Fields by name; one that is not there is answered with those that are."""
+    """Fields by name; a missing one is answered with those that exist."""
 
     def __missing__(self, name: str) -> npt.NDArray[np.float64]:
         raise UnknownNameError.of("memory", name, self)

@@ -66,7 +66,7 @@ def serving(app: "Starlette", host: str = LOCAL, port: int = 0) -> Iterator[str]
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]}, name="shoal-server")
     thread.start()
     try:
-        yield f"http://{reachable(host)}:{listener.getsockname()[1]}/"  # it listens already: who comes early waits
+        yield f"http://{reachable(host)}:{listener.getsockname()[1]}/"  # it listens already: early requests wait
     finally:
         server.should_exit = True
         thread.join()
