@@ -47,6 +47,14 @@ class TestShape:
         assert repr(recorded) == repr(scenario())
         assert recorded.model_dump(mode="json") == told()
 
+    def test_names_may_be_any_text(self):
+        name = "\x1b]0;pwn\x07"
+        recorded = recorded_scenario(told({"name": name, "fleets.0.name": name, "description": "\x1b"}))
+        assert (recorded.name, recorded.fleets[0].name) == (name, name)
+        assert "\x1b" not in repr(recorded)
+        with pytest.raises(ScenarioError, match="control character"):
+            shoal.load(recorded)
+
     def test_its_hash_is_the_one_that_its_record_tells(self):
         recorded = recorded_scenario(told({"strategy": {"name": "gone", "pull": 1.0}}), hash="0123456789abcdef")
         assert recorded.hash == copy.deepcopy(recorded).hash == "0123456789abcdef"

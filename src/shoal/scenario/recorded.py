@@ -57,8 +57,9 @@ class RecordedStrategy(StrategyChoice):
 
 
 class RecordedFleet(Fleet):
-    """A fleet as a record tells it."""
+    """A fleet as a record tells it. Names are text of any kind: whoever shows one shows it as text."""
 
+    name: str
     strategy: RecordedStrategy | None = None
 
 
@@ -85,6 +86,8 @@ def _target(value: Any) -> Frozen:
 class RecordedScenario(Scenario):
     """A scenario as a record tells it. `shoal.load`, and so whatever runs it, validates it in full."""
 
+    name: str
+    description: str = ""
     fleets: tuple[RecordedFleet, ...] = Field(min_length=1)
     strategy: RecordedStrategy
     targets: tuple[Annotated[SerializeAsAny[Any], PlainValidator(_target)], ...] = Field(min_length=1)
