@@ -12,13 +12,13 @@ from shoal.core.errors import MissingExtraError, ShoalError
 from shoal.scenario.load import read_table
 from shoal.viewer import server
 from shoal.viewer.address import Guard, is_local, names_of, reachable
-from shoal.viewer.server import page_app, serving, watching
+from shoal.viewer.server import page_app, serving, serving_session
 from shoal.viewer.session import Session
 
 
 @pytest.fixture
 def address(small_page):
-    with watching(Session([read_table("oceans2020")])) as where:
+    with serving_session(Session([read_table("oceans2020")])) as where:
         yield where
 
 
@@ -259,7 +259,7 @@ class TestLive:
 class TestServing:
     def test_nothing_is_left_when_it_ends(self, small_page):
         before = set(threading.enumerate())
-        with watching(Session([read_table("oceans2020")])) as where, Page(where) as page:
+        with serving_session(Session([read_table("oceans2020")])) as where, Page(where) as page:
             page.next("frame")
         assert set(threading.enumerate()) <= before
         with pytest.raises(OSError, match=r"refused"):

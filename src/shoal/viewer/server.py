@@ -26,7 +26,7 @@ _HEADERS = {
 
 
 @contextmanager
-def watching(session: Session, host: str = LOCAL, port: int = 0) -> Iterator[str]:
+def serving_session(session: Session, host: str = LOCAL, port: int = 0) -> Iterator[str]:
     """Run a session and serve it while this is a context; gives the address. Port 0 is a free one.
 
     Raises
