@@ -5,7 +5,7 @@ import pytest
 
 from scenarios import scenario
 from shoal.core.errors import ScenarioError
-from shoal.drawing.footage import footage
+from shoal.drawing.footage import current_record, footage
 from shoal.run.simulate import simulate
 from shoal.run.simulation import Simulation
 
