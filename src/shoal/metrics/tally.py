@@ -66,4 +66,4 @@ def of_batches(name: str) -> bool:
 
 def _empty(each: Sum, sizes: dict[str, int]) -> npt.NDArray[Any]:
     shape = [sizes[part] if isinstance(part, str) else part for part in each.shape]
-    return np.full(shape, each.start, np.int64 if each.whole else np.float64)
+    return np.full(shape, each.start, np.int64 if each.integer else np.float64)

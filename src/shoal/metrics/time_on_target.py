@@ -11,7 +11,7 @@ WINDOWS = 50  # of the timeline, per batch
 
 @kernel
 def tally_time_on_target(tally, step, world, swarm, targets, scratch):
-    """Count a step, the agents that are on a target that is there (before the move), and the targets watched.
+    """Count a step, the agents that are on a present target (before the move), and the targets watched.
 
     The timeline counts the same in finer parts: window w of a batch is its steps from w / W to (w + 1) / W.
     """

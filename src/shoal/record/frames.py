@@ -21,7 +21,7 @@ _TARGET = np.dtype([("x", np.float64), ("y", np.float64), ("present", np.int64)]
 
 
 def engaged_by_frame(frames: Trajectory) -> npt.NDArray[np.int64]:
-    """How many agents are on a target that is there, (K,). False alarms do not count."""
+    """How many agents are on a present target, (K,). False alarms do not count."""
     engaged: npt.NDArray[np.int64] = np.asarray(frames.engaged).sum(axis=1)
     return engaged
 

@@ -46,7 +46,7 @@ def read_state(
             lone = [name for name in sorted(held ^ like.keys()) if name.startswith(optional)]
             others = [name for name in sorted(held - like.keys()) if not name.startswith(optional)]
             if others:
-                raise ValueError(f"it has {others[0]}, which is no part of it")
+                raise ValueError(f"it has {others[0]}, which is not part of it")
             saved = {name: state[name] for name in sorted(held | (like.keys() - set(lone)))}
             for name, mine in like.items():
                 if name in saved and (saved[name].shape, saved[name].dtype) != (mine.shape, mine.dtype):

@@ -28,7 +28,7 @@ class Trajectory:
     step : (K,) number of the step
     x, y : (K, N) [m]; vx, vy : (K, N) [m/s] really made in the step before
     command_x, command_y : (K, N) [m/s] wanted in the step before, within the agent's limits, before the wall
-    on_target : (K, N) what an agent believes and reports; engaged : (K, N) it is on a target that is there
+    on_target : (K, N) what an agent believes and reports; engaged : (K, N) it is on a present target
     alive : (K, N) it is there; neighbors : (K, N) the k in force
     links : (K, N, W) whom agents really hear in the step, as bits: see `shoal.record.frames.who_hears_whom`
     target_x, target_y : (K, T) [m]; target_present : (K, T)
