@@ -38,9 +38,7 @@ def closest(tally: Any, facts: Facts) -> float:
 MEASUREMENT = Measurement(
     "closest",
     sums=(
-        Sum(
-            "closest", "m^2", "not a sum: the least square of a distance between two agents", ("run",), start=NONE_SEEN
-        ),
+        Sum("closest", "m^2", "not a sum: least square of a distance between two agents", ("run",), start=NONE_SEEN),
     ),
     before_move=tally_closest,
     metrics=(
