@@ -60,6 +60,7 @@ def valid_table(rng, strategies):
         "update_order": str(rng.choice(["synchronous", "sequential"])),
         "speed_rule": str(rng.choice(["cap", "divide"])),
     })  # fmt: skip
+    maybe(rng, table, chance=0.15, disturbances=lambda: [_disturbance(rng, names) for _ in range(rng.integers(1, 4))])
     if joins:
         table["joins"] = joins
     left = agents
@@ -77,6 +78,16 @@ def valid_table(rng, strategies):
             table.setdefault("losses", []).append(loss)
         if left == 0:
             break
+    return table
+
+
+def _disturbance(rng, fleets):
+    kind = str(rng.choice(["current", "blackout"]))
+    table = {"kind": kind, "since": float(rng.choice([0.0, some(rng, 1e-2, 1e2)]))}
+    maybe(rng, table, fleet=lambda: str(rng.choice(fleets)), until=lambda: table["since"] + some(rng, 1e-2, 1e2))
+    if kind == "current":
+        maybe(rng, table, chance=0.7, east=lambda: some(rng, 1e-3, 1e2), north=lambda: -some(rng, 1e-3, 1e2))
+        maybe(rng, table, gust=lambda: some(rng, 1e-3, 1e1), gust_time=lambda: some(rng, 1e-2, 1e2))
     return table
 
 

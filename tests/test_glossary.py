@@ -7,27 +7,30 @@ from pathlib import Path
 import pytest
 
 import shoal
+from shoal.scenario.disturbances import DISTURBANCES
+from shoal.scenario.targets import TARGETS
 
 ROOT = Path(__file__).resolve().parents[1]
 SOURCE = Path(shoal.__file__).parent
 (TABLE,) = re.findall(r"\| --- \| --- \|\n(.*)", (ROOT / "docs/glossary.md").read_text(encoding="utf-8"), re.DOTALL)
 TERMS = re.findall(r"^\| ([^|]+) \|", TABLE, re.MULTILINE)
 DICTIONARY = """
-actor adaptive add address array arrived asset atomic bar bound box build cannot carry change chart check
+actor adaptive add address any around array arrived assembled asset atomic bar bound box build cannot carry change
+chart check
 choice choose clean cli client column command compare compared compiled compiler compiling console content
-core count crash csv data dataframe dataset declared difference disc dive drag drawing duration each edit
-effort encoder ended error executor experiment export extra figure file film folder format frontier frozen
+core count crash csv data dataframe dataset declared difference disc dispatch dive drag drawing duration each edit
+effort encoder ended error executor experiment export extra figure file film fixed folder format frontier frozen
 geojson gpx graph ground guard histogram info inner installed interval is kept keyword kill kml label layout
 legend listen listing live load lock locked look main map mark meaning measure message meta missing move
 moving name named netcdf new nmea no now numba older one option output over page paired panel param pause
-picture place placement plain play plot plugin print private progress published quantity range read recorded
+picture place placement plain play plot plugin print private progress published quantity range read reason recorded
 reproduce restart result robustness running said saved say schema scored seek seen self sensing sensitivity
 sensor server several shoal show side signal simulate simulation size stamp startup statement statistic stop
 stopped strategy style summary swept table text top tree unknown varied vehicle version view wanted watch
 watched word writer xml
 """  # words that mean what any dictionary says, and file formats
 PLAIN = frozenset(DICTIONARY.split())
-KINDS = ["drift", "evasive", "levy", "line", "still", "track", "walk", "waypoint"]  # of targets
+KINDS = [*TARGETS, *DISTURBANCES]
 
 
 def words(name):

@@ -9,6 +9,7 @@ import pytest
 from scenarios import changed
 from shoal.metrics.summary import METRICS
 from shoal.run.simulation import Simulation
+from shoal.scenario.disturbances import DISTURBANCES
 from shoal.scenario.load import load, read_table, scenario_from
 from shoal.scenario.schema import AdaptiveDegree, Fleet, Join, Loss, Network
 from shoal.scenario.targets import TARGETS
@@ -62,6 +63,10 @@ class TestCompleteness:
     @pytest.mark.parametrize("kind", sorted(TARGETS.keys() - {"track"}))
     def test_every_field_of_targets(self, kind):
         assert [name for name in TARGETS[kind].model_fields if name not in page("targets")] == []
+
+    @pytest.mark.parametrize("kind", sorted(DISTURBANCES))
+    def test_every_field_of_disturbances(self, kind):
+        assert [name for name in DISTURBANCES[kind].model_fields if name not in page("disturbances")] == []
 
     def test_every_metric(self):
         assert [name for name in METRICS if f"`{name}`" not in page("metrics")] == []

@@ -14,6 +14,7 @@ list_strategies, list_metrics, list_presets    what there is
 strategy, kernel, uniform, normal              to write a strategy, with the units
 Meters, MetersPerSecond, Seconds, Degrees      of its parameters
 Measurement, Sum, Metric                       to write a metric
+Range, Says                                    of the options of a target or a disturbance
 plot                                           every figure, in one line each
 Buoy, Reading, Report, briefing                to decide on board, without an engine
 ShoalError                                     base of every error raised on purpose
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from shoal.core.draws import normal, uniform
     from shoal.core.errors import ShoalError
     from shoal.core.messages import Reading, Report
-    from shoal.core.units import Degrees, Meters, MetersPerSecond, Seconds
+    from shoal.core.units import Degrees, Meters, MetersPerSecond, Range, Says, Seconds
     from shoal.metrics.contract import Measurement, Metric, Sum
     from shoal.paper.reproduce import reproduce
     from shoal.record.files import open_record, save_record
@@ -54,7 +55,7 @@ _HOMES = {
     "shoal.core.draws": ("normal", "uniform"),
     "shoal.core.errors": ("ShoalError",),
     "shoal.core.messages": ("Reading", "Report"),
-    "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Seconds"),
+    "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Range", "Says", "Seconds"),
     "shoal.metrics.contract": ("Measurement", "Metric", "Sum"),
     "shoal.paper.reproduce": ("reproduce",),
     "shoal.record.files": ("open_record", "save_record"),
@@ -80,9 +81,11 @@ __all__ = [
     "Meters",
     "MetersPerSecond",
     "Metric",
+    "Range",
     "Reading",
     "Record",
     "Report",
+    "Says",
     "Scenario",
     "Seconds",
     "ShoalError",

@@ -13,12 +13,12 @@ from shoal.metrics.contract import Step
 from shoal.metrics.summary import evaluate
 from shoal.metrics.tally import new_tally
 from shoal.run.facts import facts_of
-from shoal.world.targets import TARGET
+from shoal.world.targets.catalogue import TARGET_FIELDS
 
 
 def counted(*watchers, present=None):
     """Tally of targets with so many watchers step by step, one list per target; absent where `present` says so."""
-    targets = np.zeros(len(watchers), TARGET).view(np.recarray)
+    targets = np.zeros(len(watchers), TARGET_FIELDS).view(np.recarray)
     targets["lost"] = -1
     tally = new_tally(steps=len(watchers[0]), batches=1, fleets=1, agents=2, targets=len(watchers))
     for step in range(len(watchers[0])):

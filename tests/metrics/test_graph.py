@@ -27,7 +27,7 @@ def measured(linked, alive=None):
     links = new_links(n, n)
     links.square[:n] = np.where(linked, 1.0, np.inf)
     links.reach[:] = 1.0
-    world = World(n, 1, 0.1, 1.0, 1.0, 1.0, 1.0, False, False, False, False, False, 1.0)
+    world = World(n, 1, 0.1, 1.0, 1.0, 1.0, 1.0, False, False, False, False, False, False, 1.0)
     tally = new_tally(steps=1, batches=1, fleets=1, agents=n, targets=1)
     there = np.ones(n) if alive is None else np.asarray(alive, float)
     scratch = Scratch(links, np.zeros(n, np.int64), np.zeros((2, n)), np.zeros(n), np.zeros(n), np.zeros(n))

@@ -13,7 +13,7 @@ from shoal.run.facts import facts_of
 from shoal.run.simulation import Simulation
 from shoal.run.state import arrays_of
 from shoal.world.radio import Air, Network
-from shoal.world.targets.record import TARGET, TARGET_MAKE, TARGET_STATE
+from shoal.world.targets.catalogue import TARGET_FIELDS, TARGET_MAKE, TARGET_STATE
 
 MOVES = {"radius": 1.0, "speed": 2.0}
 EVERYTHING = {
@@ -31,6 +31,10 @@ EVERYTHING = {
         {"kind": "levy", **MOVES, "shortest": 0.5, "longest": 9.0},
         {"kind": "evasive", **MOVES, "sight": 3.0, "wall_sight": 1.0},
         {"kind": "drift", **MOVES, "current_x": 0.3},
+    ],
+    "disturbances": [
+        {"kind": "current", "east": 0.2, "gust": 0.1, "gust_time": 1.0},
+        {"kind": "blackout", "fleet": "slow", "since": 7.0, "until": 9.0},
     ],
 }
 
@@ -59,7 +63,9 @@ class TestWhole:
     def test_what_is_chosen_does_not_change_in_a_run(self, chosen):
         simulation = Simulation(chosen)
         stage = simulation._placed.stage
-        state = {name.replace("air.", "radio.") for name, _ in arrays_of(simulation.moment)}
+        homes = {"air": "radio", "weather": "nature"}
+        names = [name.split(".", 1) for name, _ in arrays_of(simulation.moment)]
+        state = {f"{homes.get(part, part)}.{rest}" for part, rest in names}
         numbers = ("world", "run", "phases")  # and no arrays
         rest = stage._replace(**dict.fromkeys(numbers, np.zeros(0)), radio=only_arrays(stage.radio))
         kept = lambda: {  # noqa: E731
@@ -76,7 +82,7 @@ class TestWhole:
         for state, make, both in ((Bodies, Makes, running.swarm), (Air, Network, running.radio)):
             assert (*state._fields, *make._fields) == both._fields
             assert not set(state._fields) & set(make._fields)
-        assert TARGET.names == (*TARGET_STATE.names, *TARGET_MAKE.names)
+        assert TARGET_FIELDS.names == (*TARGET_STATE.names, *TARGET_MAKE.names)
 
     def test_a_saved_state_has_all_of_it(self, running, chosen, tmp_path):
         running.save(tmp_path / "state.npz")
@@ -92,13 +98,17 @@ class TestWhole:
         new = carry_over(running, chosen)
         n = chosen.agents
         for name, mine in arrays_of(new.moment._replace(tally=new.moment.air)):
-            part, field = name.split(".")
+            part, field = name.split(".")[:2]
             if part == "swarm":
                 assert mine[:n].tobytes() == getattr(running.swarm, field)[:n].tobytes(), name
             elif part == "air":
                 assert mine[:, :n].tobytes() == getattr(running.radio, field)[:, :n].tobytes(), name
             elif part == "targets":
                 assert mine.tobytes() == running.targets[field].tobytes(), name
+            elif part == "weather":
+                theirs = dict(arrays_of(running.moment))[name]
+                agents = slice(None) if field == "clock" else slice(n)
+                assert mine[..., agents].tobytes() == theirs[..., agents].tobytes(), name
 
     def test_a_run_that_is_carried_over_goes_on_as_it_would_have(self, running, chosen):
         new = carry_over(running, chosen)

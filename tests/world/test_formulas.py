@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from shoal.world.motion import limited, maneuvered, moved
+from shoal.world.motion import NO_DRIFT, limited, maneuvered, move, moved
 from shoal.world.placement import PLACES, start
 from shoal.world.presence import is_there, lifetime
 from shoal.world.radio import adapted, degree_of
@@ -27,9 +27,22 @@ def test_a_turn_is_limited_first_and_then_the_change():
 
 
 def test_a_wall_makes_the_velocity_the_displacement_really_made():
-    assert moved(1.0, 2.0, 8.5, 0.5) == (2.0, 2.0)
-    assert moved(8.0, 2.0, 8.5, 0.5) == (8.5, 1.0)
-    assert moved(10.0, 0.0, 8.5, 0.5) == (8.5, 0.0)  # being put inside is no motion
+    assert moved(1.0, 2.0, NO_DRIFT, 8.5, 0.5) == (2.0, 2.0)
+    assert moved(8.0, 2.0, NO_DRIFT, 8.5, 0.5) == (8.5, 1.0)
+    assert moved(10.0, 0.0, NO_DRIFT, 8.5, 0.5) == (8.5, 0.0)  # being put inside is no motion
+
+
+def test_a_drift_adds_to_the_displacement_and_not_to_the_velocity_through_the_water():
+    assert moved(1.0, 2.0, 0.25, 8.5, 0.5) == (2.25, 2.0)
+    assert moved(8.0, 0.0, 1.0, 8.5, 0.5) == (8.5, 1.0)  # and the wall stops the sum
+
+
+@pytest.mark.parametrize("place", [0.0, -0.0])
+@pytest.mark.parametrize("command", [0.0, -0.0])
+def test_no_drift_moves_no_bit(place, command):
+    position, velocity = np.array([place]), np.zeros(1)
+    move(position, velocity, np.array([command]), 8.5, 0.5)
+    assert math.copysign(1.0, position[0]) == math.copysign(1.0, place + command * 0.5)
 
 
 def test_the_rim_of_the_reach_is_within_it():

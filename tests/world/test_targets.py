@@ -14,7 +14,9 @@ from scenarios import scenario
 from shoal.core.agents import new_swarm
 from shoal.run.simulation import Simulation
 from shoal.tracks.track import position_at
-from shoal.world.targets import KINDS, TARGET, Tracks, advance_target
+from shoal.world.targets.catalogue import NUMBERS, TARGET_FIELDS
+from shoal.world.targets.contract import Tracks
+from shoal.world.targets.dispatch import advance_target
 
 NO_DRAW = np.uint64(0)
 clock = namedtuple("clock", "time_step agents")  # all of the world that targets ask for
@@ -25,8 +27,8 @@ def follow(track, time, others=()):
     """x, y, present of a target on a track at a time; `others` are the tracks stored before it."""
     stored = [*others, track]
     fixes = Tracks(*(np.concatenate([getattr(each, name) for each in stored]) for name in ("time", "x", "y")))
-    target = np.zeros(1, TARGET)
-    target["kind"] = KINDS.index("track")
+    target = np.zeros(1, TARGET_FIELDS)
+    target["kind"] = NUMBERS["track"]
     target["first_fix"] = sum(each.time.size for each in others)
     target["fixes"], target["max_gap"] = track.time.size, track.max_gap
     advance_target(target[0], fixes, NOBODY, clock(time, 2), 1, NO_DRAW)
@@ -92,8 +94,8 @@ class TestTrack:
         assert follow(track, 120.1)[2] is False
 
     def test_absent_targets_stay_where_they_were_last(self):
-        target = np.zeros(1, TARGET)
-        target["kind"], target["fixes"], target["max_gap"] = KINDS.index("track"), 2, 100.0
+        target = np.zeros(1, TARGET_FIELDS)
+        target["kind"], target["fixes"], target["max_gap"] = NUMBERS["track"], 2, 100.0
         fixes = Tracks(np.array([0.0, 10.0]), np.array([0.0, 4.0]), np.array([0.0, 2.0]))
         for steps_done in range(1, 30):
             advance_target(target[0], fixes, NOBODY, clock(1.0, 2), steps_done, NO_DRAW)
@@ -104,7 +106,7 @@ class TestTrack:
         track = SimpleNamespace(time=np.array([0.0, 20.0]), x=np.array([-8.0, 8.0]), y=np.zeros(2), max_gap=100.0)
         simulation.tracks = Tracks(track.time, track.x, track.y)
         make = simulation._targets
-        make["kind"], make["fixes"], make["max_gap"] = KINDS.index("track"), 2, track.max_gap
+        make["kind"], make["fixes"], make["max_gap"] = NUMBERS["track"], 2, track.max_gap
         with simulation.edit() as now:
             now.targets["x"], now.targets["y"] = -8.0, 0.0
         frames = simulation.advance(60, every=1)

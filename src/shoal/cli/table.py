@@ -30,7 +30,10 @@ def print_record(record: Record) -> None:
     degrees = degree_text(scenario, record.roster.by_fleet("neighbors"))
     runs = len(record.tallies)
     console.print(styled(plain(scenario.name), "bold") + styled(f": {fleets}, k = {degrees}", ""))
-    console.print(f"strategy {strategy_text(scenario)}; target {targets}")
+    disturbed = ", ".join(map(_disturbance, scenario.disturbances))
+    console.print(
+        f"strategy {strategy_text(scenario)}; target {targets}" + (f"; disturbed by {disturbed}" if disturbed else "")
+    )
     console.print(
         f"{runs} run{'s' * (runs > 1)} of {scenario.steps:,} steps of {scenario.time_step:g} s, "
         f"seed {record.provenance['seed']}, scenario {record.provenance['scenario_hash']}"
@@ -94,6 +97,10 @@ def _unit(unit: str) -> str:
 
 def _cells(value: Estimate) -> tuple[str, str]:
     return mean_text(value), interval_text(value)
+
+
+def _disturbance(disturbance: Any) -> str:
+    return plain(f"{disturbance.kind} ({disturbance.fleet})" if disturbance.fleet else str(disturbance.kind))
 
 
 def _target(target: Any) -> str:

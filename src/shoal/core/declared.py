@@ -59,6 +59,11 @@ def declared(folder: str, mark: str, kind: type[Kind], group: str) -> tuple[list
     return found, wrong
 
 
+def is_offered(name: str, group: str) -> bool:
+    """Whether an installed package offers something of this name, be it broken or not."""
+    return any(entry.name == name for entry in offers()[group])
+
+
 def import_marked(folder: str, mark: str) -> list[ModuleType]:
     """Import the modules in a folder whose top level says a name, such as MEASUREMENT; they are sorted by theirs."""
     modules = []

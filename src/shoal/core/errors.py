@@ -80,11 +80,12 @@ def no_attribute(owner: str, name: str, known: Iterable[str]) -> AttributeError:
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """Return the question whether a known name was meant, a space after it; empty if none is near.
 
-    Near is the path or the only name that ends in it, or else what is spelt alike, what has these initials, the only
-    one with this part.
+    Near is the path that ends in it, its plural, or the only name that ends in it; or else what is spelt alike, what
+    has these initials, the only one with this part.
     """
     names = list(known)
     near = [each for each in names if each.endswith(f".{name}")][:1]
+    near = near or [each for each in names if each.removesuffix("s") == name.removesuffix("s")][:1]
     near = near or _only(each for each in names if each.endswith(f"_{name}"))
     near = near or difflib.get_close_matches(name[:100], names, n=1)
     near = near or [each for each in names if len(name) > 1 and _initials(each) == name]

@@ -75,25 +75,30 @@ class Unit:
 
 @dataclass(frozen=True)
 class Choice:
-    """Marks an int parameter of a strategy that a scenario spells as one of these words (0 is the first)."""
+    """Marks an int option that a scenario spells as one of these words (0 is the first)."""
 
     words: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class Says:
-    """One sentence about a parameter."""
+    """One sentence about an option."""
 
     sentence: str
 
 
 @dataclass(frozen=True)
 class Range:
-    """Marks which values a parameter of a strategy may have: `least` to `most`, or above `least` if it is `open`."""
+    """Marks which values an option may have: `least` to `most`, or above `least` if it is `open`."""
 
     least: float = 0.0
     most: float = 1e12
     open: bool = False
+
+
+@dataclass(frozen=True)
+class FileName:
+    """Marks a text that names a file, relative to the folder of the scenario that says it."""
 
 
 Meters = Annotated[float, Unit("m")]

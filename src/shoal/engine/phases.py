@@ -8,36 +8,42 @@ from typing import Any
 
 import numpy as np
 
-from shoal.compiler.installed import package_in
-from shoal.compiler.kernel import NumbaError, kernel
+from shoal.compiler.kernel import kernel
 from shoal.compiler.phase import phase
 from shoal.compiler.placed import part
 from shoal.core.draws import TARGET_STREAM, split
-from shoal.core.errors import PluginError
+from shoal.core.plugin_errors import plugin_errors
 from shoal.engine.frames import keep_frame, keep_links
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
-from shoal.engine.stage import FRAMES, RADIO, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD, Addresses
+from shoal.engine.stage import FRAMES, NATURE, RADIO, RUN, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD, Addresses
 from shoal.metrics.contract import Step
-from shoal.world.motion import limit_maneuver, limit_speed, move
+from shoal.world.disturbances.dispatch import disturb
+from shoal.world.motion import limit_maneuver, limit_speed, move, move_adrift, slow_down
 from shoal.world.neighbors import count_heard, link_nearest, measure_distances, rank_heard, settle_ties
 from shoal.world.presence import update_presence
-from shoal.world.radio import adapt_degree, limit_links, lose_reports, said, send
+from shoal.world.radio import adapt_degree, deafen, limit_links, lose_reports, said, send
 from shoal.world.sensing import sense
-from shoal.world.targets import advance_target
+from shoal.world.targets.dispatch import advance_target
+
+SPOILED_AGENTS, SPOILED_TARGETS, SPOILED_DRIFT = 1, 2, 3  # what a run ends with whose numbers are not finite
 
 
 @phase
 def sense_all(stage, number, first, batch, key):
-    """Who is there, who is on target, and what is said."""
+    """What nature does, who is there, who is on target, and what is said."""
     world = part(stage, WORLD)
     swarm = part(stage, SWARM)
     radio = part(stage, RADIO)
     targets = part(stage, TARGETS)
+    nature = part(stage, NATURE)
+    run = part(stage, RUN)
     tally = part(stage, TALLY)
     scratch = part(stage, SCRATCH)
+    if world.disturbed:
+        disturb(nature, swarm, targets, world, number, split(split(run.seed, 0), run.run))
     if world.mortal:
         update_presence(swarm, world, number)
-    sense(swarm, targets, world, key)
+    sense(swarm, targets, nature.effects, world, key)
     measure_before_move(tally, Step(number, batch, 0), world, swarm, targets, scratch)
     if radio.delay > 0:
         send(radio, swarm, number)
@@ -58,16 +64,18 @@ def link(stage, number, first, batch, key):
     swarm = part(stage, SWARM)
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
-    find_links(scratch.links, world, swarm, radio, number, first)
+    find_links(scratch.links, world, swarm, radio, part(stage, NATURE).effects, number, first)
     return 0
 
 
 @kernel
-def find_links(links, world, swarm, radio, number, first):
+def find_links(links, world, swarm, radio, effects, number, first):
     """Link the agents from `first` on to those whose reports may reach them, ties and losses aside."""
     last = first + links.reach.size
     reports = said(radio, swarm, number)
     measure_distances(links, reports.x, reports.y, swarm.x[first:last], swarm.y[first:last], first, world.agents)
+    if world.disturbed:
+        deafen(links, effects, first, world.agents)
     if radio.limited:
         limit_links(links, swarm, radio, first, world.agents, number)
         link_nearest(links, links.wanted, world.agents)
@@ -127,8 +135,15 @@ def move_agents(stage, number, first, batch, key):
     if world.inertial:
         limit_maneuver(swarm, first, there, world.time_step)
     limit_speed(command_x, command_y, swarm.max_speed[first:last], world.divide)
-    move(swarm.x[first:last], swarm.vx[first:last], command_x, world.clamp_x, world.time_step)
-    move(swarm.y[first:last], swarm.vy[first:last], command_y, world.clamp_y, world.time_step)
+    x, y, vx, vy = swarm.x[first:last], swarm.y[first:last], swarm.vx[first:last], swarm.vy[first:last]
+    if world.disturbed:
+        effects = part(stage, NATURE).effects[first:last]
+        slow_down(command_x, command_y, swarm.max_speed[first:last], effects.speed)
+        move_adrift(x, vx, command_x, effects.drift_x, world.clamp_x, world.time_step)
+        move_adrift(y, vy, command_y, effects.drift_y, world.clamp_y, world.time_step)
+    else:
+        move(x, vx, command_x, world.clamp_x, world.time_step)
+        move(y, vy, command_y, world.clamp_y, world.time_step)
     return 0
 
 
@@ -154,22 +169,32 @@ def move_targets(stage, number, first, batch, key):
 
 @phase
 def come_to_rest(stage, number, first, batch, key):
-    """Make the state true between two calls: who is there and on target as step `number` will begin.
+    """Make the state true between two calls: what nature does, who is there and on target as step `number` will begin.
 
-    Returns 1 if a number is not finite.
+    Returns 0, or what is not finite: SPOILED_AGENTS, SPOILED_TARGETS, SPOILED_DRIFT.
     """
     world = part(stage, WORLD)
     swarm = part(stage, SWARM)
+    targets = part(stage, TARGETS)
+    nature = part(stage, NATURE)
+    run = part(stage, RUN)
+    if world.disturbed:
+        disturb(nature, swarm, targets, world, number, split(split(run.seed, 0), run.run))
     if world.mortal:
         update_presence(swarm, world, number)
-    sense(swarm, part(stage, TARGETS), world, key)
+    sense(swarm, targets, nature.effects, world, key)
+    if nature.clock[1] != 0:
+        return SPOILED_DRIFT
+    for target in targets:
+        if not (np.isfinite(target.x) and np.isfinite(target.y)):
+            return SPOILED_TARGETS
     finite = True
     for i in range(world.agents):
         finite &= np.isfinite(swarm.x[i]) & np.isfinite(swarm.y[i])
         finite &= np.isfinite(swarm.vx[i]) & np.isfinite(swarm.vy[i])
     for each in part(stage, TALLY).fluctuation.flat:
         finite &= np.isfinite(each)
-    return 0 if finite else 1
+    return 0 if finite else SPOILED_AGENTS
 
 
 @phase
@@ -184,7 +209,7 @@ def look_at_links(stage, number, first, frame, key):
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
     links = scratch.links
-    find_links(links, world, swarm, radio, number, first)
+    find_links(links, world, swarm, radio, part(stage, NATURE).effects, number, first)
     count_heard(links, world.agents)
     settle_links(links, world, swarm, radio, first, key)
     keep_links(frames, frame, links, first, world.agents)
@@ -212,12 +237,6 @@ def addresses() -> Addresses:
     ------
     PluginError : what an installed package counts or moves cannot be compiled
     """
-    try:
+    with plugin_errors():
         where: list[Any] = [each.address() for each in _IN_ORDER]
-    except NumbaError as error:
-        package = package_in(str(error))
-        if package is None:
-            raise
-        problem = f"a kernel of it cannot be compiled: {str(error).strip().splitlines()[0]}"
-        raise PluginError(package, problem, "fix or uninstall it") from error
     return Addresses(*where)

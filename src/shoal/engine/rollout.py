@@ -14,7 +14,7 @@ from shoal.strategies import contract
 from shoal.world.placement import place
 from shoal.world.presence import draw_lifetimes, draw_losses, update_presence
 from shoal.world.radio import begin_degree
-from shoal.world.targets import begin_target
+from shoal.world.targets.dispatch import begin_target
 
 
 @entry_kernel
@@ -40,7 +40,7 @@ def set_out(stage, places, lifetimes, losses):
     if radio.adaptive:
         begin_degree(swarm, radio, world.agents)
     for j in range(targets.size):
-        begin_target(targets[j], tracks, split(start_key, TARGET_STREAM + j))
+        begin_target(targets[j], tracks, swarm, world, split(start_key, TARGET_STREAM + j))
 
 
 @entry_kernel
@@ -59,7 +59,7 @@ def begin_run(stage, minds, params):
 
 @entry_kernel
 def rollout(stage, minds, params, first, last, every, tail):
-    """Run time-steps first..last, in place; returns 1 if a number is not finite at the end.
+    """Run time-steps first..last, in place; returns what is not finite at the end, 0: nothing, see come_to_rest.
 
     Frames are kept of every `every`-th step and of all from step `tail` on. Splitting a run into several calls changes
     no bit: what must survive a call is in the stage, and true when a call is back.

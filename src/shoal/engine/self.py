@@ -3,7 +3,7 @@
 from shoal.compiler.kernel import kernel
 from shoal.core.messages import Briefing, Own, Truth
 from shoal.strategies import contract
-from shoal.world.targets import heading_to
+from shoal.world.targets.dispatch import heading_to
 
 
 @kernel

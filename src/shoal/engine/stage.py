@@ -10,9 +10,12 @@ from shoal.core.agents import Floats, Swarm, aligned_zeros, new_swarm
 from shoal.core.links import link_bytes
 from shoal.metrics.tally import Tally, new_tally
 from shoal.world.arena import World
+from shoal.world.disturbances.catalogue import DISTURBANCE_FIELDS, MEMORY
+from shoal.world.disturbances.contract import EFFECTS, Nature
 from shoal.world.neighbors import Links, new_links
 from shoal.world.radio import Radio, new_radio
-from shoal.world.targets import TARGET, Tracks
+from shoal.world.targets.catalogue import TARGET_FIELDS
+from shoal.world.targets.contract import Tracks
 
 
 class Scratch(NamedTuple):
@@ -78,17 +81,18 @@ class Run(NamedTuple):
     steps: int
 
 
-WORLD, SWARM, RADIO, TARGETS, TRACKS, TALLY, SCRATCH, FRAMES, PHASES, RUN = range(10)  # fields of a stage, for kernels
+WORLD, SWARM, RADIO, TARGETS, TRACKS, NATURE, TALLY, SCRATCH, FRAMES, PHASES, RUN = range(11)  # fields, for kernels
 
 
 class Stage(NamedTuple):
-    """World, agents, radio, targets, sums, working arrays, frames, phases and chance of one run."""
+    """World, agents, radio, targets, disturbances, sums, working arrays, frames, phases and chance of one run."""
 
     world: World
     swarm: Swarm
     radio: Radio
     targets: npt.NDArray[Any]
     tracks: Tracks
+    nature: Nature
     tally: Tally
     scratch: Scratch
     frames: Frames
@@ -109,6 +113,19 @@ def new_scratch(world: World, lanes: int, sums: int = 2, ranked: bool = False) -
         a=aligned_zeros(lanes),
         b=aligned_zeros(lanes),
         c=aligned_zeros(lanes),
+    )
+
+
+def new_nature(disturbances: int, lanes: int) -> Nature:
+    """Return so many disturbances, which have not acted yet on so many lanes of agents."""
+    effects = np.zeros(lanes, EFFECTS).view(np.recarray)
+    for name in ("senses", "hears", "speed"):
+        effects[name] = 1.0
+    return Nature(
+        disturbances=np.zeros(disturbances, DISTURBANCE_FIELDS).view(np.recarray),
+        effects=effects,
+        memory=np.zeros((disturbances, lanes), MEMORY).view(np.recarray),
+        clock=np.array([-1, 0]),
     )
 
 
@@ -142,8 +159,9 @@ def model_stage() -> Stage:
         world,
         new_swarm([2], ()),
         new_radio(1, (), limited=False, reach=1.0, delay=0, loss=0.0, degree=None),
-        np.zeros(1, TARGET).view(np.recarray),
+        np.zeros(1, TARGET_FIELDS).view(np.recarray),
         Tracks(np.zeros(1), np.zeros(1), np.zeros(1)),
+        new_nature(1, 1),
         new_tally(1, 1, 1, 2, 1),
         new_scratch(world, 2),
         new_frames(0, 2, 1, 1),

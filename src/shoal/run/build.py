@@ -1,4 +1,4 @@
-"""What the engine works on, built from a scenario: world, swarm, radio, losses, targets and their recorded tracks."""
+"""What the engine works on, built from a scenario: world, swarm, radio, losses, targets, disturbances."""
 
 import math
 from collections.abc import Sequence
@@ -7,23 +7,21 @@ from typing import Any
 import numpy as np
 
 from shoal.core.agents import new_swarm
+from shoal.core.declared import Declared
+from shoal.core.errors import PluginError
+from shoal.engine.stage import new_nature
 from shoal.scenario.briefing import degrees, shares
 from shoal.scenario.crew import Crew
-from shoal.scenario.on_track import open_track
 from shoal.scenario.schema import Scenario
-from shoal.scenario.targets import (
-    DriftTarget,
-    EvasiveTarget,
-    MovingTarget,
-    StillTarget,
-    TrackTarget,
-    WalkTarget,
-    WaypointTarget,
-)
-from shoal.tracks.track import Track
+from shoal.scenario.targets import MovingTarget
 from shoal.world.arena import World
+from shoal.world.assembled import fill
+from shoal.world.disturbances.catalogue import KINDS as DISTURBANCES
+from shoal.world.disturbances.catalogue import NUMBERS as DISTURBANCE_NUMBERS
+from shoal.world.disturbances.contract import Nature
 from shoal.world.radio import new_radio
-from shoal.world.targets import KINDS, TARGET, Tracks
+from shoal.world.targets.catalogue import KINDS, NUMBERS, TARGET_FIELDS
+from shoal.world.targets.contract import Tracks
 
 
 def build_world(scenario: Scenario) -> World:
@@ -40,14 +38,21 @@ def build_world(scenario: Scenario) -> World:
         sequential=scenario.motion.update_order == "sequential",
         divide=scenario.motion.speed_rule == "divide",
         inertial=any(fleet.max_acceleration or fleet.max_turn_rate for fleet in fleets),
-        imperfect=any(fleet.detection_probability < 1 or fleet.false_alarm_probability > 0 for fleet in fleets),
+        imperfect=any(fleet.detection_probability < 1 or fleet.false_alarm_probability > 0 for fleet in fleets)
+        or bool(scenario.disturbances),
         mortal=_is_mortal(scenario),
+        disturbed=bool(scenario.disturbances),
         target_radius=min(target.radius for target in scenario.targets),
     )
 
 
 def _is_mortal(scenario: Scenario) -> bool:
-    return bool(scenario.losses or scenario.joins or any(fleet.mean_lifetime for fleet in scenario.fleets))
+    return bool(
+        scenario.losses
+        or scenario.joins
+        or scenario.disturbances
+        or any(fleet.mean_lifetime for fleet in scenario.fleets)
+    )
 
 
 def build_swarm(scenario: Scenario, crew: Crew) -> Any:
@@ -94,6 +99,18 @@ def build_radio(scenario: Scenario, crew: Crew, lanes: int) -> Any:
     return radio
 
 
+def build_nature(scenario: Scenario, lanes: int) -> Nature:
+    """One record per disturbance, and room for what each does to so many lanes of agents."""
+    nature = new_nature(len(scenario.disturbances), lanes)
+    for record, disturbance in zip(nature.disturbances, scenario.disturbances, strict=True):
+        record["kind"] = DISTURBANCE_NUMBERS[disturbance.kind]
+        record["fleet"] = scenario.fleet_names.index(disturbance.fleet) if disturbance.fleet else -1
+        record["since"] = disturbance.since
+        record["until"] = math.inf if disturbance.until is None else disturbance.until
+        _work_out(record, DISTURBANCES[record["kind"]], disturbance)
+    return nature
+
+
 def losses_of(scenario: Scenario) -> Any:
     """Step, fleet (-1: any) and count of every loss, in the order of the steps, (C, 3)."""
     names = scenario.fleet_names
@@ -101,32 +118,23 @@ def losses_of(scenario: Scenario) -> Any:
     return np.array(sorted(rows), np.int64).reshape(-1, 3)
 
 
-def open_tracks(scenario: Scenario) -> list[Track]:
-    """Read the recorded tracks of a scenario, in the order of its targets.
-
-    Raises
-    ------
-    TrackError : one cannot be used
-    ScenarioError : one is not what the scenario was made with
-    """
-    return [open_track(target, scenario.area.origin) for target in scenario.targets if isinstance(target, TrackTarget)]
-
-
-def build_targets(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Any, Tracks]:
+def build_targets(scenario: Scenario, tracks: Sequence[Any]) -> tuple[Any, Tracks]:
     """One record per target; the fixes of recorded ones one after the other."""
-    targets = np.zeros(len(scenario.targets), TARGET).view(np.recarray)
+    targets = np.zeros(len(scenario.targets), TARGET_FIELDS).view(np.recarray)
     unread = list(tracks)
     first_fix = 0
     for record, target in zip(targets, scenario.targets, strict=True):
-        record["kind"] = KINDS.index(target.kind)
+        record["kind"] = NUMBERS[target.kind]
         record["radius"] = target.radius
         record["present"] = 1
         record["lost"] = -1
-        if isinstance(target, StillTarget):
-            record["x"], record["y"] = target.x, target.y
-        elif isinstance(target, MovingTarget):
-            _fill_moving(record, target, scenario)
-        else:
+        if isinstance(target, MovingTarget):
+            record["half_x"] = scenario.area.width / 2 - target.margin
+            record["half_y"] = scenario.area.height / 2 - target.margin
+            record["speed"] = target.speed
+            record["surface_time"], record["dive_time"] = target.surface_time or 0.0, target.dive_time or 0.0
+        _work_out(record, KINDS[NUMBERS[target.kind]], target)
+        if target.kind == "track":
             track = unread.pop(0)
             record["first_fix"] = first_fix
             record["fixes"] = track.time.size
@@ -135,20 +143,23 @@ def build_targets(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Any, Tra
     return targets, _join_tracks(tracks)
 
 
-def _fill_moving(record: Any, target: MovingTarget, scenario: Scenario) -> None:
-    """What a target's rule says; fields of the same name are the same thing."""
-    record["half_x"] = scenario.area.width / 2 - target.margin
-    record["half_y"] = scenario.area.height / 2 - target.margin
-    for name, value in target.model_dump(exclude={"kind", "margin", "max_turn", "persistence"}).items():
-        record[name] = value or 0.0
-    if isinstance(target, WaypointTarget | EvasiveTarget):
-        record["turn_cos"] = math.cos(math.radians(target.max_turn))
-        record["turn_sin"] = math.sin(math.radians(target.max_turn))
-    if isinstance(target, WalkTarget | EvasiveTarget | DriftTarget):
-        record["diffusion"] = 1.0 / target.persistence
+def _work_out(record: Any, kind: Declared[Any], options: Any) -> None:
+    """Write what is chosen of a target or a disturbance into its record.
+
+    Raises
+    ------
+    PluginError : an installed package cannot work it out
+    """
+    try:
+        fill(record, kind.value, options)
+    except Exception as error:
+        if kind.package is None:
+            raise
+        problem = f"{kind.value.name!r} cannot be made of its options: {type(error).__name__}: {error}"
+        raise PluginError(kind.package, problem, "fix or uninstall it") from error
 
 
-def _join_tracks(tracks: Sequence[Track]) -> Tracks:
+def _join_tracks(tracks: Sequence[Any]) -> Tracks:
     if not tracks:
         return Tracks(np.zeros(1), np.zeros(1), np.zeros(1))
     return Tracks(*(np.concatenate([getattr(track, name) for track in tracks]) for name in ("time", "x", "y")))

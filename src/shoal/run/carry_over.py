@@ -7,6 +7,7 @@ from shoal.core.agents import NEVER
 from shoal.run.simulation import Simulation
 from shoal.run.state import State
 from shoal.scenario.schema import Scenario
+from shoal.world.disturbances.contract import Weather
 
 Lanes = npt.NDArray[np.int64]
 
@@ -40,6 +41,8 @@ def carry_over(old: Simulation, scenario: Scenario, origin: npt.ArrayLike | None
         for mine in range(min(new.targets.size, old.targets.size)):
             if new.targets[mine]["kind"] == old.targets[mine]["kind"]:
                 now.targets[mine] = before.targets[mine]
+        if new.scenario.disturbances == old.scenario.disturbances:
+            _carry_weather(before.weather, now.weather, here, there)
         new.begin()
         _carry_memory(old, new, now, here, there)
         _carry_air(old, new, now, here, there)
@@ -54,6 +57,13 @@ def _carry_bodies(old: Simulation, new: Simulation, now: State, here: Lanes, the
             mine[here] = theirs[there]
     adapts = old.radio.adaptive and new.radio.adaptive
     now.swarm.neighbors[:] = np.clip(now.swarm.neighbors, new.radio.fewest, new.radio.most) if adapts else chosen
+
+
+def _carry_weather(before: Weather, now: Weather, here: Lanes, there: Lanes) -> None:
+    """What the same disturbances do and remember; others begin now, as do all for agents that are new."""
+    now.effects[here] = before.effects[there]
+    now.memory[:, here] = before.memory[:, there]
+    now.clock[:] = before.clock
 
 
 def _let_join(number: int, now: State, agents: Lanes) -> None:

@@ -11,20 +11,22 @@ from shoal.compiler.kernel import compiles
 from shoal.compiler.placed import Placed
 from shoal.core.agents import NEVER, Minds, as_records
 from shoal.core.errors import ScenarioError, StrategyError
+from shoal.core.plugin_errors import plugin_errors
 from shoal.core.text import plain
 from shoal.core.version import RESULTS_VERSION
-from shoal.engine.phases import addresses
+from shoal.engine.phases import SPOILED_DRIFT, SPOILED_TARGETS, addresses
 from shoal.engine.rollout import look, set_out
 from shoal.engine.stage import Frames, Run, Stage, new_frames, new_scratch
 from shoal.metrics.tally import never_counted, new_tally
 from shoal.record.saved_state import read_state, write_state
 from shoal.record.trajectory import Trajectory
-from shoal.run.build import build_radio, build_swarm, build_targets, build_world, losses_of, open_tracks
+from shoal.run.build import build_nature, build_radio, build_swarm, build_targets, build_world, losses_of
 from shoal.run.compiling import entry_points
 from shoal.run.facts import roster_of
 from shoal.run.state import State, arrays_of, read_only, state_of
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
+from shoal.scenario.on_track import open_tracks
 from shoal.world.placement import PLACES
 
 _set_out: Any = set_out  # kernels have no types that mypy sees
@@ -70,6 +72,7 @@ class Simulation:
         tracks = open_tracks(scenario)
         self.notes = [note for track in tracks for note in track.notes]
         self._targets, self.tracks = build_targets(scenario, tracks)
+        self._nature = build_nature(scenario, self._swarm.x.size)
         minds = Minds(
             memory=as_records(self._swarm.memory, self.memory_fields),
             told=as_records(self._swarm.told, self.crew.told),
@@ -79,7 +82,7 @@ class Simulation:
         self._minds = plain if compiles() else minds  # numba takes recarrays, too, but slowly
         batches = min(BATCHES, scenario.steps)
         self._tally = new_tally(scenario.steps, batches, len(scenario.fleets), scenario.agents, len(scenario.targets))
-        self._state = state_of(self._swarm, self._radio, self._targets, self._tally)
+        self._state = state_of(self._swarm, self._radio, self._targets, self._nature, self._tally)
         self.swarm, self.targets, self.minds = read_only(self._swarm), read_only(self._targets), read_only(minds)
         self.moment: State = read_only(self._state)
         self.tally = self.moment.tally
@@ -91,7 +94,8 @@ class Simulation:
         self._looking = Placed(self._stage(self._new_frames(1)))
         places = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
         lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
-        _set_out(self._placed.address, places, lifetimes, losses_of(scenario))
+        with plugin_errors():
+            _set_out(self._placed.address, places, lifetimes, losses_of(scenario))
         self.roster = roster_of(self._swarm, scenario.agents, self.crew)
         self.begin()
         self._settle()
@@ -103,7 +107,7 @@ class Simulation:
 
     def begin(self) -> None:
         """Set up every agent's memory, as its strategy does before the first step."""
-        with self.crew.naming_errors():
+        with plugin_errors(), self.crew.naming_errors():
             self._placed = self._in_place(self._placed)
             self._begin(self._placed.address, self._minds, self.crew.params)
 
@@ -199,16 +203,26 @@ class Simulation:
         Raises
         ------
         StrategyError : a position, a velocity or a sum is not finite
+        ScenarioError : the place of a target or a drift is not, which is the fault of a kind that is not ours
         """
-        with self.crew.naming_errors():
+        with plugin_errors(), self.crew.naming_errors():
             spoiled = self._rollout(placed.address, self._minds, self.crew.params, first, last, every, tail)
         self.number = last
         if spoiled:
-            raise StrategyError(
-                self.crew.source,
-                f"strategy {self.crew.name!r} wanted a velocity that is not finite, before step {self.number}",
-                "look for a division by zero or the root of a negative number",
+            raise self._spoiled(spoiled)
+
+    def _spoiled(self, what: int) -> StrategyError | ScenarioError:
+        fix = "look for a division by zero or the root of a negative number"
+        if what == SPOILED_DRIFT:
+            kinds = ", ".join(dict.fromkeys(each.kind for each in self.scenario.disturbances))
+            return ScenarioError(
+                "disturbances", f"({kinds}) drift by no finite distance, before step {self.number}", fix
             )
+        if what == SPOILED_TARGETS:
+            kinds = ", ".join(dict.fromkeys(each.kind for each in self.scenario.targets))
+            return ScenarioError("targets", f"({kinds}) are at no finite place, before step {self.number}", fix)
+        problem = f"strategy {self.crew.name!r} wanted a velocity that is not finite, before step {self.number}"
+        return StrategyError(self.crew.source, problem, fix)
 
     def _in_place(self, placed: Placed) -> Placed:
         """The stage, where kernels find it; it stays there from call to call unless a part of it is another one."""
@@ -226,6 +240,7 @@ class Simulation:
             self._radio,
             self._targets,
             self.tracks,
+            self._nature,
             self._tally,
             self._scratch,
             frames,

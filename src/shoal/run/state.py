@@ -11,12 +11,13 @@ import numpy.typing as npt
 
 from shoal.core.agents import Bodies, part_of
 from shoal.metrics.tally import Tally
+from shoal.world.disturbances.contract import Nature, Weather
 from shoal.world.radio import Air
-from shoal.world.targets import TARGET_STATE
+from shoal.world.targets.catalogue import TARGET_STATE
 
 
 class State(NamedTuple):
-    """What N agents and T targets do, what is on the air, and the sums so far. Arrays are shared with the engine.
+    """What N agents, T targets and nature do, what is on the air, the sums so far. Arrays are shared with the engine.
 
     targets : (T,) records with the fields of TARGET_STATE
     """
@@ -24,12 +25,14 @@ class State(NamedTuple):
     swarm: Bodies
     air: Air
     targets: npt.NDArray[Any]
+    weather: Weather
     tally: Tally
 
 
-def state_of(swarm: Any, radio: Any, targets: npt.NDArray[Any], tally: Tally) -> State:
+def state_of(swarm: Any, radio: Any, targets: npt.NDArray[Any], nature: Nature, tally: Tally) -> State:
     """The state in what the engine works on."""
-    return State(part_of(swarm, Bodies), part_of(radio, Air), targets[list(TARGET_STATE.names or ())], tally)
+    doing = targets[list(TARGET_STATE.names or ())]
+    return State(part_of(swarm, Bodies), part_of(radio, Air), doing, part_of(nature, Weather), tally)
 
 
 def arrays_of(value: Any, name: str = "") -> Iterator[tuple[str, npt.NDArray[Any]]]:

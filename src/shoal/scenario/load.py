@@ -12,8 +12,11 @@ from typing import Any
 import tomli_w
 from pydantic import ValidationError
 
+from shoal.core.declared import is_offered
 from shoal.core.errors import ScenarioError, StrategyError, did_you_mean
 from shoal.core.text import cut, quoted
+from shoal.scenario import disturbances, targets
+from shoal.scenario.disturbances import DISTURBANCES
 from shoal.scenario.frozen import MOST_ENTRIES, plain
 from shoal.scenario.recorded import RecordedScenario, RecordedStrategy
 from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Join, Loss, Motion, Network, Scenario
@@ -265,13 +268,25 @@ def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tup
             f'{hint}strategies: {", ".join(names)}; or file = "my_strategy.py"',
         )
     if error["type"] == "union_tag_invalid":
-        hint = did_you_mean(error["ctx"]["tag"], TARGETS)
-        return f"no target is of kind {quoted(error['ctx']['tag'])}", f"{hint}kinds: {', '.join(TARGETS)}"
+        return _unknown_kind(str(error["ctx"]["tag"]), str(path[0]))
     if error["type"] == "union_tag_not_found":
-        return "a target needs a kind", f"add kind = one of: {', '.join(TARGETS)}"
+        return f"a {str(path[0])[:-1]} needs a kind", f"add kind = one of: {', '.join(_DECLARED[str(path[0])])}"
     if isinstance(value, (dict, list, tuple)):
         return f"{error['msg'].lower()}", "see `shoal scenario oceans2020` for a complete example"
     return f"{quoted(value)}: {error['msg'].lower()}", "change the value"
+
+
+_DECLARED = {"targets": TARGETS, "disturbances": DISTURBANCES}  # tables whose fields their kind decides
+_PROBLEMS = {"targets": targets.PROBLEMS, "disturbances": disturbances.PROBLEMS}
+
+
+def _unknown_kind(kind: str, where: str) -> tuple[str, str]:
+    """The problem and the fix of a kind that is not there, perhaps because the package that offers it is broken."""
+    what, known = where[:-1], _DECLARED[where]
+    if wrong := _PROBLEMS[where] if is_offered(kind, f"shoal.{where}") else []:
+        told = "; ".join(f"{each.args[0]}: {each.args[1]}" for each in wrong)
+        return f"no {what} is of kind {quoted(kind)}, though it is installed: {told}", wrong[0].args[2]
+    return f"no {what} is of kind {quoted(kind)}", f"{did_you_mean(kind, known)}kinds: {', '.join(known)}"
 
 
 def _path(loc: Sequence[Any]) -> tuple[Any, ...]:
@@ -279,7 +294,7 @@ def _path(loc: Sequence[Any]) -> tuple[Any, ...]:
     return tuple(
         part
         for at, part in enumerate(loc)
-        if not (at == 2 and loc[0] == "targets" and part in TARGETS)
+        if not (at == 2 and part in _DECLARED.get(str(loc[0]), ()))
         and part not in ("constrained-int", "literal['all']")
     )
 
@@ -298,8 +313,8 @@ def _known_fields(path: tuple[Any, ...], table: Mapping[str, Any]) -> list[str]:
         chosen = _part_at(table, path[:-1])
         owner = find_strategy(str(chosen.get("name")), chosen.get("source"))
         return ["file", *params_model(owner).model_fields] if owner else ["file", "name"]
-    if path[0] == "targets":
-        kind: Any = TARGETS.get(str(_part_at(table, path[:2]).get("kind")))
+    if path[0] in _DECLARED:
+        kind: Any = _DECLARED[path[0]].get(str(_part_at(table, path[:2]).get("kind")))
         return list(kind.model_fields) if kind else ["kind"]
     if path[:2] == ("network", "adaptive") and len(path) > 2:
         return list(AdaptiveDegree.model_fields)

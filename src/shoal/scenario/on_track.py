@@ -10,7 +10,7 @@ from shoal.core.errors import ScenarioError, TrackError
 from shoal.core.units import Unit
 from shoal.scenario.load import scenario_from
 from shoal.scenario.schema import Scenario
-from shoal.scenario.targets import TrackTarget
+from shoal.scenario.targets import Target
 from shoal.tracks.read import read_track
 from shoal.tracks.track import Track
 
@@ -41,7 +41,6 @@ def put_on_track(
     if track_id:
         target["id"] = track_id
     followed = scenario_from(scenario.model_dump(mode="json") | {"targets": [target]}).targets[0]
-    assert isinstance(followed, TrackTarget)
     track = open_track(followed, scenario.area.origin)
     factor = 1.0
     if scenario.area.origin is None:
@@ -70,14 +69,25 @@ def sign_tracks(table: dict[str, Any]) -> dict[str, Any]:
     scenario = scenario_from(table)
     targets = [
         each | {"digest": open_track(target, scenario.area.origin).digest}
-        if isinstance(target, TrackTarget) and "digest" not in each
+        if target.kind == "track" and "digest" not in each
         else each
         for each, target in zip(table["targets"], scenario.targets, strict=True)
     ]
     return table | {"targets": targets}
 
 
-def open_track(target: TrackTarget, origin: tuple[float, float] | None) -> Track:
+def open_tracks(scenario: Scenario) -> list[Track]:
+    """Read the recorded tracks of a scenario, in the order of its targets.
+
+    Raises
+    ------
+    TrackError : one cannot be used
+    ScenarioError : one is not what the scenario was made with
+    """
+    return [open_track(target, scenario.area.origin) for target in scenario.targets if target.kind == "track"]
+
+
+def open_track(target: Target, origin: tuple[float, float] | None) -> Track:
     """Read the track that a target follows, in local meters around `origin` (lon, lat) [deg].
 
     Raises
@@ -119,6 +129,7 @@ def scale_lengths(scenario: Scenario, factor: float) -> dict[str, Any]:
         (scenario.network, table["network"]),
         *zip(scenario.fleets, table["fleets"], strict=True),
         *zip(scenario.targets, table["targets"], strict=True),
+        *zip(scenario.disturbances, table["disturbances"], strict=True),
     ):
         for name, field in type(model).model_fields.items():
             if _is_length(field) and part[name] is not None:

@@ -8,6 +8,7 @@ from pydantic_core import PydanticCustomError
 
 from shoal.core.errors import StrategyError
 from shoal.core.units import Meters, MetersPerSecond
+from shoal.scenario.disturbances import DISTURBANCES, AnyDisturbance
 from shoal.scenario.frozen import Frozen
 from shoal.scenario.schema import Fleet, Scenario
 from shoal.scenario.strategy_choice import StrategyChoice
@@ -73,13 +74,31 @@ class RecordedTarget(Frozen):
     speed: MetersPerSecond | None = None
 
 
+class RecordedDisturbance(AnyDisturbance):
+    """A disturbance of a kind that this Shoal does not know."""
+
+    model_config = ConfigDict(extra="allow")
+
+
 def _target(value: Any) -> Frozen:
-    """A target as a record tells it, without the fields that this Shoal does not know."""
+    return _in_words(value, TARGETS, RecordedTarget)
+
+
+def _disturbance(value: Any) -> Frozen:
+    return _in_words(value, DISTURBANCES, RecordedDisturbance)
+
+
+def _in_words(value: Any, known: Mapping[str, type[Frozen]], recorded: type[Frozen]) -> Frozen:
+    """A target or a disturbance as a record tells it, without the fields that this Shoal does not know.
+
+    One of a package that is not installed, or in another version, is what the record says.
+    """
     if not isinstance(value, dict):
-        raise PydanticCustomError("target", "a target is a table with a kind")
-    kind = TARGETS.get(str(value.get("kind")))
-    if kind is None:
-        return RecordedTarget.model_validate(value)
+        raise PydanticCustomError("kind", "a target or a disturbance is a table with a kind")
+    kind = known.get(str(value.get("kind")))
+    source = kind.model_fields.get("source") if kind else None
+    if kind is None or (source and value.get("source") != source.default):
+        return recorded.model_validate(value)
     return kind.model_validate({name: each for name, each in value.items() if name in kind.model_fields})
 
 
@@ -91,6 +110,7 @@ class RecordedScenario(Scenario):
     fleets: tuple[RecordedFleet, ...] = Field(min_length=1)
     strategy: RecordedStrategy
     targets: tuple[Annotated[SerializeAsAny[Any], PlainValidator(_target)], ...] = Field(min_length=1)
+    disturbances: tuple[Annotated[SerializeAsAny[Any], PlainValidator(_disturbance)], ...] = ()
 
     _told_hash: str = PrivateAttr(default="")
 

@@ -19,6 +19,7 @@ from shoal.core.units import (
     Seconds,
 )
 from shoal.scenario.choices import headline
+from shoal.scenario.disturbances import Disturbance
 from shoal.scenario.durations import Steps, with_whole_steps
 from shoal.scenario.frozen import MOST_ENTRIES, Chance, Count, Frozen, Name, NotNegative, Positive
 from shoal.scenario.strategy_choice import StrategyChoice
@@ -167,6 +168,9 @@ class Scenario(Frozen):
         default=(), max_length=MOST_ENTRIES, description="agents that are lost during the run"
     )
     joins: tuple[Join, ...] = Field(default=(), max_length=MOST_ENTRIES, description="agents that join during the run")
+    disturbances: tuple[Disturbance, ...] = Field(
+        default=(), max_length=MOST_ENTRIES, description="what disturbs agents and targets during the run"
+    )
 
     _whole_steps = model_validator(mode="before")(with_whole_steps)
 
@@ -267,8 +271,11 @@ class Scenario(Frozen):
         A field that later versions add, off by default, is not part of it: hashes and stores stay what they are.
         """
         content = self.model_dump(mode="json", exclude={"name", "description", "seed"}, exclude_defaults=True)
-        for target, part in zip(self.targets, content["targets"], strict=True):
-            part["kind"] = target.kind
+        kinds: tuple[Any, ...] = (*self.targets, *self.disturbances)
+        for each, part in zip(kinds, [*content["targets"], *content.get("disturbances", ())], strict=True):
+            part["kind"] = each.kind
+            if "source" in type(each).model_fields:  # of a package, whose next version may do something else
+                part["source"] = each.source
         for part in (
             content["strategy"],
             *(fleet.get("strategy", {}) for fleet in content["fleets"]),
@@ -308,6 +315,7 @@ class Scenario(Frozen):
     def _changes_name_fleets(self) -> Self:
         named = {f"losses.{number}": loss.fleet for number, loss in enumerate(self.losses)}
         named |= {f"joins.{number}": join.fleet for number, join in enumerate(self.joins)}
+        named |= {f"disturbances.{number}": each.fleet for number, each in enumerate(self.disturbances)}
         for name, fleet in named.items():
             if fleet is not None and fleet not in self.fleet_names:
                 raise ValueError(f"{name}.fleet is {quoted(fleet)}, no fleet; there are: {', '.join(self.fleet_names)}")

@@ -5,12 +5,10 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from shoal.compiler.kernel import NumbaError
+from shoal.compiler.reason import reason_in
 from shoal.core.errors import StrategyError
 from shoal.strategies.contract import Strategy
 from shoal.strategies.plugins import line_in
-
-_TELLS = "rror|nknown|not defined|resolve|nvalid|No implementation"
-_SILENT = "Failed in nopython mode|Rejected as|^During|^File "
 
 
 @contextmanager
@@ -61,7 +59,4 @@ def _reason(compiler_text: str) -> str:
         return counted.group()
     if re.search(r"failed to unpack|unify return type|setitem\(array\(float64", compiler_text):
         return "a function does not return what it should: decide returns two numbers, influence one for each sum"
-    lines = [line.strip() for line in compiler_text.splitlines() if line.strip()]
-    saying = [line for line in lines if not re.search(_SILENT, line)] or lines
-    reason = next((line for line in reversed(saying) if re.search(_TELLS, line)), saying[0])
-    return re.sub(r"(of type \w+)\(.*", r"\1", reason)
+    return reason_in(compiler_text)

@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from shoal.run.build import open_tracks
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
+from shoal.scenario.on_track import open_tracks
 
 
 def check(scenario: Source, **changes: Any) -> list[str]:

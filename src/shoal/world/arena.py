@@ -13,6 +13,7 @@ class World(NamedTuple):
     inertial : agents have limits of acceleration or turn rate
     imperfect : sensors miss targets or report false ones
     mortal : agents are lost or join during the run
+    disturbed : there are disturbances; it is imperfect and mortal then, too
     target_radius : of the smallest target
     """
 
@@ -28,4 +29,5 @@ class World(NamedTuple):
     inertial: bool
     imperfect: bool
     mortal: bool
+    disturbed: bool
     target_radius: float

@@ -4,6 +4,8 @@ import math
 
 from shoal.compiler.kernel import kernel
 
+NO_DRIFT = -0.0  # adds nothing, not even to the sign of a zero
+
 
 @kernel
 def limited(vx, vy, max_speed, divide):
@@ -39,13 +41,14 @@ def maneuvered(vx, vy, wanted_x, wanted_y, turn, change):
 
 
 @kernel
-def moved(place, command, clamp, time_step):
+def moved(place, command, drift, clamp, time_step):
     """Advance along one axis by a time-step, Eq. 3, and stop at the wall: place [m] and velocity [m/s] after it.
 
-    At the wall the velocity becomes the displacement really made. An agent that starts outside the wall is put inside,
-    which is no motion of its own: it counts from the wall on.
+    The displacement is the sum of what the agent commands and of what nature adds, `drift` [m]; its velocity stays the
+    one through the water. At the wall it becomes the displacement really made. An agent that starts outside the wall is
+    put inside, which is no motion of its own: it counts from the wall on.
     """
-    free = place + command * time_step
+    free = place + (command * time_step + drift)
     there = min(max(free, -clamp), clamp)
     inside = min(max(place, -clamp), clamp)
     return there, command if there == free else (there - inside) / time_step
@@ -77,6 +80,25 @@ def limit_maneuver(swarm, first, last, time_step):
 
 @kernel
 def move(position, velocity, command, clamp, time_step):
-    """Move a block of agents (B,) along one axis, in place."""
+    """Move a block of agents (B,) along one axis, in place, where nothing adds to what they command."""
     for i in range(position.size):
-        position[i], velocity[i] = moved(position[i], command[i], clamp, time_step)
+        position[i], velocity[i] = moved(position[i], command[i], NO_DRIFT, clamp, time_step)
+
+
+@kernel
+def move_adrift(position, velocity, command, drift, clamp, time_step):
+    """Move a block of agents (B,) along one axis, in place, by what they command and by a drift (B,) [m]."""
+    for i in range(position.size):
+        position[i], velocity[i] = moved(position[i], command[i], drift[i], clamp, time_step)
+
+
+@kernel
+def slow_down(command_x, command_y, max_speed, share):
+    """Limit the velocities (B,) of a block of agents to a share (B,) of their top speeds, in place."""
+    for i in range(command_x.size):
+        top = max_speed[i] * share[i]
+        if top <= 0.0:
+            command_x[i] = 0.0
+            command_y[i] = 0.0
+        elif share[i] < 1.0:
+            command_x[i], command_y[i] = limited(command_x[i], command_y[i], top, False)

@@ -141,6 +141,16 @@ def limit_links(links, swarm, radio, first, agents, number):
 
 
 @kernel
+def deafen(links, effects, first, agents):
+    """Unlink whoever hears nothing from all, before the nearest are sought."""
+    square = links.square
+    for i in range(min(square.shape[1], agents - first)):
+        if effects[first + i].hears <= 0.0:
+            for j in range(agents):
+                square[j, i] = np.inf
+
+
+@kernel
 def lose_reports(links, radio, step_key, first, agents):
     """Unlink every pair whose report is lost in this step."""
     square = links.square

@@ -26,11 +26,13 @@ def imagines(key, false_alarm):
 
 
 @kernel
-def sense(swarm, targets, world, step_key):
+def sense(swarm, targets, effects, world, step_key):
     """Set on_target (f_i = -1 in the paper) of every agent within its sensor radius plus a target's radius.
 
     Kwa et al., Heterogeneous Swarms, Eq. 1. Counts the watchers of every target and returns how many agents watch any,
     which are `engaged`: false alarms set on_target, but watch nothing.
+
+    effects : (L,) records of what disturbances do to each agent, see world/disturbances/contract.py
     """
     agents = world.agents
     engaged = 0
@@ -45,7 +47,7 @@ def sense(swarm, targets, world, step_key):
                 dy = swarm.y[i] - target.y
                 sees = within_reach(dx, dy, swarm.sensor_radius[i] + target.radius) & (swarm.alive[i] > 0.0)
                 if world.imperfect:
-                    sees &= notices(split(step_key, i), j, swarm.detection[i])
+                    sees &= notices(split(step_key, i), j, swarm.detection[i] * effects[i].senses)
                 swarm.on_target[i] |= sees
                 watchers += sees
         targets[j].watchers = watchers
@@ -54,5 +56,6 @@ def sense(swarm, targets, world, step_key):
         engaged += swarm.on_target[i]
     if world.imperfect:
         for i in range(agents):
-            swarm.on_target[i] |= imagines(split(step_key, i), swarm.false_alarm[i]) & (swarm.alive[i] > 0.0)
+            alarm = imagines(split(step_key, i), swarm.false_alarm[i] * effects[i].senses)
+            swarm.on_target[i] |= alarm & (swarm.alive[i] > 0.0)
     return engaged

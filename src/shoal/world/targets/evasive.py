@@ -7,22 +7,37 @@ target's is.
 """
 
 import math
+from dataclasses import dataclass
+from typing import Annotated
 
 from shoal.compiler.kernel import kernel
-from shoal.core.draws import normal
-from shoal.world.targets.moves import advance_straight, heading_of, turn
+from shoal.core.units import Degrees, Meters, Range, Says, Seconds
+from shoal.world.targets.contract import Target
+from shoal.world.targets.moves import advance_straight, heading_of, turn, wander
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evasive:
+    """Flees from the buoys that it sees and from walls; otherwise wanders."""
+
+    sight: Annotated[Meters, Range(), Says("it flees from buoys nearer than this [m]")]
+    wall_sight: Annotated[Meters, Range(open=True), Says("it turns from edges nearer than this [m]")]
+    max_turn: Annotated[Degrees, Range(0.0, 180.0, open=True), Says("largest turn in a step [deg]")] = 20.0
+    persistence: Annotated[
+        Seconds, Range(open=True), Says("of its wandering: after this time the mean cosine of the turn is 1/e [s]")
+    ] = 10.0
 
 
 @kernel
-def escape(target, swarm, agents):
+def escape(target, around):
     """Sum of (x - x_p) / |x - x_p|^2 over the agents alive within sight and the walls within theirs [1/m]."""
     away_x = 0.0
     away_y = 0.0
-    for i in range(agents):
-        dx = target.x - swarm.x[i]
-        dy = target.y - swarm.y[i]
+    for i in range(around.agents):
+        dx = target.x - around.x[i]
+        dy = target.y - around.y[i]
         square = dx * dx + dy * dy
-        if swarm.alive[i] > 0.0 and 0.0 < square <= target.sight * target.sight:
+        if around.alive[i] > 0.0 and 0.0 < square <= target.sight * target.sight:
             away_x += dx / square
             away_y += dy / square
     away_x += _from_walls(target.x, target.half_x, target.wall_sight)
@@ -31,9 +46,9 @@ def escape(target, swarm, agents):
 
 
 @kernel
-def flee(target, swarm, agents, time_step, draw):
+def flee(target, around, draw):
     """Turn toward the way out, at most so far per step, and go on."""
-    away_x, away_y = escape(target, swarm, agents)
+    away_x, away_y = escape(target, around)
     heading = heading_of(target)
     if away_x != 0.0 or away_y != 0.0:
         angle = math.atan2(away_y, away_x) - heading
@@ -41,8 +56,8 @@ def flee(target, swarm, agents, time_step, draw):
         most = math.atan2(target.turn_sin, target.turn_cos)
         turn(target, heading + min(max(angle, -most), most))
     else:
-        turn(target, heading + math.sqrt(2.0 * target.diffusion * time_step) * normal(draw, 3))
-    advance_straight(target, target.speed * time_step)
+        wander(target, around.time_step, draw)
+    advance_straight(target, target.speed * around.time_step)
 
 
 @kernel
@@ -52,3 +67,15 @@ def _from_walls(place, half, sight):
     high = max(half - place, 1e-3 * sight)
     push = 1.0 / low if low < sight else 0.0
     return push - 1.0 / high if high < sight else push
+
+
+TARGET = Target(
+    name="evasive",
+    options=Evasive,
+    advance=flee,
+    make={
+        "turn_cos": lambda options: math.cos(math.radians(options.max_turn)),
+        "turn_sin": lambda options: math.sin(math.radians(options.max_turn)),
+        "diffusion": lambda options: 1.0 / options.persistence,  # of the heading [1/s]
+    },
+)

@@ -4,10 +4,35 @@ Viswanathan et al., "Optimizing the success of random searches", Nature 401, 199
 """
 
 import math
+from dataclasses import dataclass
+from typing import Annotated
 
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import uniform
+from shoal.core.units import Meters, Range, Says
+from shoal.world.targets.contract import Target
 from shoal.world.targets.moves import advance_straight, any_heading
+
+
+@dataclass(frozen=True, kw_only=True)
+class Levy:
+    """A Levy walk: legs of power-law length in random directions, reflected at the edge."""
+
+    exponent: Annotated[float, Range(1.0, 5.0), Says("mu: P(l) ~ l^-mu")] = 2.0
+    shortest: Annotated[Meters, Range(open=True), Says("shortest leg [m]")]
+    longest: Annotated[Meters, Range(open=True), Says("longest leg [m]")]
+
+
+def in_order(options: Levy) -> None:
+    """Refuse a shortest leg that is longer than the longest."""
+    if options.shortest > options.longest:
+        raise ValueError(f"shortest is {options.shortest:g} m, more than longest, {options.longest:g} m; swap them")
+
+
+@kernel
+def begin(target, around, draw):
+    """Draw the first leg."""
+    begin_leg(target, draw)
 
 
 @kernel
@@ -23,10 +48,20 @@ def begin_leg(target, draw):
 
 
 @kernel
-def go_leg(target, time_step, draw):
+def go_leg(target, around, draw):
     """Go on; a new leg begins at the end of the step in which the old one ends."""
-    way = target.speed * time_step
-    advance_straight(target, way)
-    target.leg -= way
+    distance = target.speed * around.time_step
+    advance_straight(target, distance)
+    target.leg -= distance
     if target.leg <= 0.0:
         begin_leg(target, draw)
+
+
+TARGET = Target(
+    name="levy",
+    options=Levy,
+    begin=begin,
+    advance=go_leg,
+    check=in_order,
+    state={"leg": float},  # what is left of it [m]
+)

@@ -1,6 +1,45 @@
-"""A recorded track, followed fix by fix."""
+"""A recorded track, followed fix by fix. No current moves it: what the water did is in the record."""
+
+from dataclasses import dataclass
+from typing import Annotated
 
 from shoal.compiler.kernel import kernel
+from shoal.core.units import FileName, Meters, MetersPerSecond, Range, Says, Seconds
+from shoal.world.targets.contract import Target
+
+
+@dataclass(frozen=True, kw_only=True)
+class Track:
+    """A recorded track in longitude and latitude: CSV, NMEA, GPX, KML, GeoJSON or NetCDF."""
+
+    file: Annotated[
+        str,
+        FileName(),
+        Says("CSV, NMEA, GPX, KML, GeoJSON or CF NetCDF file; relative to the scenario's folder"),
+    ]
+    id: Annotated[str | None, Says('which track of the file, as "COLUMN=VALUE"; "all" joins all')] = None
+    radius: Annotated[Meters, Range(), Says("rho: size of the target [m]")]
+    max_gap: Annotated[
+        Annotated[Seconds, Range(open=True)] | None,
+        Says("in a longer silence the target is absent [s]; default from the data"),
+    ] = None
+    max_speed: Annotated[
+        MetersPerSecond, Range(open=True), Says("a faster jump between two fixes is a GPS error [m/s]")
+    ] = 40.0
+    day_first: Annotated[bool | None, Says("dates such as 10/03/2024 are in March; default from the data")] = None
+    digest: Annotated[str | None, Says("hash of the fixes used; Shoal fills it in, then insists on it")] = None
+
+
+@kernel
+def begin(target, around, draw):
+    """Be where the track is at time 0."""
+    follow_track(target, around.tracks, 0.0)
+
+
+@kernel
+def advance(target, around, draw):
+    """Be where the track is at the end of the step."""
+    follow_track(target, around.tracks, around.time)
 
 
 @kernel
@@ -29,3 +68,6 @@ def follow_track(target, tracks, time):
     target.x = tracks.x[before] + share * (tracks.x[after] - tracks.x[before])
     target.y = tracks.y[before] + share * (tracks.y[after] - tracks.y[before])
     target.present = 1
+
+
+TARGET = Target(name="track", options=Track, begin=begin, advance=advance, moves=False)

@@ -4,15 +4,34 @@ Kareiva and Shigesada, "Analyzing insect movement as a correlated random walk", 
 the turn made in a time t is exp(-diffusion t).
 """
 
-import math
+from dataclasses import dataclass
+from typing import Annotated
 
 from shoal.compiler.kernel import kernel
-from shoal.core.draws import normal
-from shoal.world.targets.moves import advance_straight, heading_of, turn
+from shoal.core.units import Range, Says, Seconds
+from shoal.world.targets.contract import Target
+from shoal.world.targets.moves import advance_straight, wander
+
+
+@dataclass(frozen=True, kw_only=True)
+class Walk:
+    """A persistent random walk, reflected at the edge."""
+
+    persistence: Annotated[
+        Seconds, Range(open=True), Says("after this time the mean cosine of the turn is 1/e [s]")
+    ] = 10.0
 
 
 @kernel
-def walk(target, time_step, draw):
+def walk(target, around, draw):
     """Turn a little by chance, and go on."""
-    turn(target, heading_of(target) + math.sqrt(2.0 * target.diffusion * time_step) * normal(draw, 3))
-    advance_straight(target, target.speed * time_step)
+    wander(target, around.time_step, draw)
+    advance_straight(target, target.speed * around.time_step)
+
+
+TARGET = Target(
+    name="walk",
+    options=Walk,
+    advance=walk,
+    make={"diffusion": lambda options: 1.0 / options.persistence},  # of the heading [1/s]
+)

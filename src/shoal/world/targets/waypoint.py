@@ -1,13 +1,27 @@
 """The paper's target: constant speed toward uniform random waypoints, turning at most so far per step."""
 
 import math
+from dataclasses import dataclass
+from typing import Annotated
 
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import split, uniform
+from shoal.core.units import Degrees, Meters, Range, Says
+from shoal.world.targets.contract import Target
+from shoal.world.targets.moves import go
+
+
+@dataclass(frozen=True, kw_only=True)
+class Waypoint:
+    """The paper's target: constant speed toward uniform random waypoints, turning at most so far per step."""
+
+    max_turn: Annotated[Degrees, Range(0.0, 180.0, open=True), Says("largest turn in a step [deg]")] = 20.0
+    waypoint_reach: Annotated[Meters, Range(open=True), Says("a new waypoint is taken when closer than this [m]")]
+    waypoint_patience: Annotated[int, Range(open=True), Says("or after this many steps on the same one")] = 200
 
 
 @kernel
-def begin_waypoint(target, draw):
+def begin_waypoint(target, around, draw):
     """Take a waypoint and head for it."""
     take_waypoint(target, split(draw, 2))
     dx = target.waypoint_x - target.x
@@ -18,7 +32,7 @@ def begin_waypoint(target, draw):
 
 
 @kernel
-def seek_waypoint(target, time_step, draw):
+def seek_waypoint(target, around, draw):
     """Turn toward the waypoint, at most so far per step, and go on; take a new one when near or tired of it."""
     dx = target.waypoint_x - target.x
     dy = target.waypoint_y - target.y
@@ -36,8 +50,8 @@ def seek_waypoint(target, time_step, draw):
             heading_x = target.turn_cos * target.heading_x - turn_sin * target.heading_y
             target.heading_y = turn_sin * target.heading_x + target.turn_cos * target.heading_y
             target.heading_x = heading_x
-    target.x += target.speed * time_step * target.heading_x
-    target.y += target.speed * time_step * target.heading_y
+    distance = target.speed * around.time_step
+    go(target, distance * target.heading_x, distance * target.heading_y)
     target.waypoint_age += 1
     dx = target.waypoint_x - target.x
     dy = target.waypoint_y - target.y
@@ -52,3 +66,23 @@ def take_waypoint(target, draw):
     target.waypoint_x = target.half_x * (2.0 * uniform(draw, 0) - 1.0)
     target.waypoint_y = target.half_y * (2.0 * uniform(draw, 1) - 1.0)
     target.waypoint_age = 0
+
+
+@kernel
+def to_waypoint(target):
+    """To its waypoint."""
+    return target.speed * target.heading_x, target.speed * target.heading_y, target.waypoint_x, target.waypoint_y
+
+
+TARGET = Target(
+    name="waypoint",
+    options=Waypoint,
+    begin=begin_waypoint,
+    advance=seek_waypoint,
+    heading_to=to_waypoint,
+    state={"waypoint_x": float, "waypoint_y": float, "waypoint_age": int},
+    make={
+        "turn_cos": lambda options: math.cos(math.radians(options.max_turn)),
+        "turn_sin": lambda options: math.sin(math.radians(options.max_turn)),
+    },
+)

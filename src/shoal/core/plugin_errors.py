@@ -1,0 +1,35 @@
+"""What goes wrong as the kernels of an installed package are compiled, as one error that names the package."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from shoal.compiler.installed import offers, package_in, package_of
+from shoal.compiler.kernel import NumbaError
+from shoal.compiler.reason import reason_in
+from shoal.core.errors import PluginError
+
+
+@contextmanager
+def plugin_errors() -> Iterator[None]:
+    """Turn what the compiler says of a package's metric, target or disturbance into one error.
+
+    Raises
+    ------
+    PluginError : it cannot be compiled; nothing can run then, for the engine is compiled with it
+    """
+    try:
+        yield
+    except NumbaError as error:
+        package = package_in(str(error))
+        if package is None:
+            raise
+        raise _uncompiled(package, reason_in(str(error))) from error
+    except KeyError as error:  # numba looked for a field of a record, and says nothing else
+        packages = dict.fromkeys(package_of(entry) for entries in offers().values() for entry in entries)
+        if not packages:
+            raise
+        raise _uncompiled(" or ".join(packages), f"{error.args[0]!r} is not a field of a record") from error
+
+
+def _uncompiled(package: str, reason: str) -> PluginError:
+    return PluginError(package, f"a kernel of it cannot be compiled: {reason}", "fix or uninstall it")
