@@ -12,7 +12,7 @@ from playwright.sync_api import Browser, Page, sync_playwright
 from shoal import load, simulate
 from shoal.scenario.load import read_table
 from shoal.viewer.replay import replay_page
-from shoal.viewer.server import watching
+from shoal.viewer.server import serving_session
 from shoal.viewer.session import Session
 
 CHROMIUM = [Path(path) for path in ("/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome")]
@@ -39,7 +39,7 @@ def main(folder: Path) -> None:
 
 def shoot_live(browser: Browser, folder: Path) -> None:
     """A running swarm: light, dark with halos, the keys, and on a phone."""
-    with watching(Session([read_table("oceans2020")], speed=SPEED)) as address:
+    with serving_session(Session([read_table("oceans2020")], speed=SPEED)) as address:
         shoot(browser, address, folder / "live.png", run_on)
         shoot(browser, address, folder / "live-dark.png", run_on, key="h", color_scheme="dark")
         shoot(browser, address, folder / "keys.png", run_on, key="?")
@@ -51,7 +51,7 @@ def shoot_comparison(browser: Browser, folder: Path) -> None:
     """Two runs on one seed, that differ in k."""
     few = read_table("oceans2020")
     few["network"]["neighbors"] = 5
-    with watching(Session([read_table("oceans2020"), few], speed=SPEED)) as address:
+    with serving_session(Session([read_table("oceans2020"), few], speed=SPEED)) as address:
         shoot(browser, address, folder / "against.png", run_on)
         shoot(browser, address, folder / "against-dark.png", run_on, color_scheme="dark")
 

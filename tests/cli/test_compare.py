@@ -160,7 +160,7 @@ BAD = [
     (["knn-pso", "--vary", "neighbors=3,60"], "can hear at most 49"),
     (["knn-pso", "--set", "netwerk.neighbors=3"], "did you mean 'network'"),
     (["knn-pso", "--runs", "0"], "give a number above 0"),
-    (["knn-pso", "--figure", "f.bmp"], "no format of a figure"),
+    (["knn-pso", "--figure", "f.bmp"], "not a format of a figure"),
 ]
 
 

@@ -118,7 +118,7 @@ BAD = [
     (["run", "oceans2020", "--runs", "0"], "ask for 1 or more"),
     (["run", "oceans2020", "--strategy", "knn"], "did you mean 'knn-pso'"),
     (["run", "oceans2020", "--strategy", "./none.py"], "cannot be read"),
-    (["run", "oceans2020", "--figure", "f.bmp"], "no format of a figure"),
+    (["run", "oceans2020", "--figure", "f.bmp"], "not a format of a figure"),
     (["run", "oceans2020", "--track-id", "a=b"], "needs --target-track"),
     (["run", "oceans2020", "--target-track", "none.csv"], "no such file"),
     (["run", "oceans2020", "--target-track", "empty.csv"], "empty"),

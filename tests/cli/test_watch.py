@@ -134,7 +134,7 @@ class TestBadInput:
             (["oceans2020", "--against", "time_step=0.2"], "time_step"),
             (["oceans2020", "--neighbors", "99"], "at most 49"),
             (["oceans2020", "--speed", "5000"], "times real time"),
-            (["oceans2020", "--host", "192.0.2.1"], "no address of this machine"),
+            (["oceans2020", "--host", "192.0.2.1"], "not an address of this machine"),
             (["oceans2020", "--track-id", "a=b"], "needs --target-track"),
         ],
     )

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from shoal.core.errors import MissingExtraError, RecordError, ShoalError
+from shoal.drawing.arena_drawing import Parts
 from shoal.drawing.encoder import find_ffmpeg
 from shoal.drawing.film import FilmLook, write_film
 from shoal.drawing.film_page import FilmPage, film_size
-from shoal.drawing.scene import Parts
 from shoal.drawing.stretch import stretch_of
 from shoal.drawing.style import style
 

@@ -5,7 +5,7 @@ import pytest
 
 from scenarios import scenario
 from shoal.core.errors import ScenarioError
-from shoal.drawing.footage import footage, present
+from shoal.drawing.footage import current_record, footage
 from shoal.run.simulate import simulate
 from shoal.run.simulation import Simulation
 
@@ -34,7 +34,7 @@ class TestPresent:
         record = simulate(scenario(changes={"steps": 60}), every=1)
         simulation = Simulation(scenario(changes={"steps": 60}))
         simulation.advance(45)
-        now = present(simulation).trajectories[0]
+        now = current_record(simulation).trajectories[0]
         for name, values in record.trajectories[0].arrays().items():
             assert np.array_equal(now.arrays()[name][0], values[45]), name
 
@@ -42,7 +42,7 @@ class TestPresent:
         one, other = Simulation(scenario()), Simulation(scenario())
         one.advance(30)
         other.advance(30)
-        present(one)
+        current_record(one)
         one.advance(30)
         other.advance(30)
         assert all(np.array_equal(one.state()[name], other.state()[name]) for name in one.state())
@@ -50,4 +50,4 @@ class TestPresent:
     def test_a_simulation_at_its_end_has_a_present_too(self):
         simulation = Simulation(scenario(changes={"steps": 20}))
         simulation.advance(20)
-        assert present(simulation).trajectories[0].step.tolist() == [20]
+        assert current_record(simulation).trajectories[0].step.tolist() == [20]

@@ -153,7 +153,7 @@ class TestABrokenPackage:
             ('Metric(\n            "crowding"', 'Metric(\n            "Crowding!"', "is not called in small letters"),
             ('better="lower"', 'better="less"', "better is 'less', none of 'higher', 'lower', 'neither'"),
             ("crowding, better", "None, better", "its formula is not a function"),
-            ("high=1.0", 'high="all"', "its bounds are no numbers"),
+            ("high=1.0", 'high="all"', "its bounds are not numbers"),
             ("tally.crowded.sum()", "tally.crowd.sum()", "the formula of its metric 'crowding' fails: AttributeError"),
             ("MEASUREMENT =", "MEASUREMENTS =", "crowding declares no measurement"),
             ("tally.crowded[step", "tally.crowd[step", "a kernel of it cannot be compiled"),

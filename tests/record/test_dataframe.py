@@ -67,7 +67,7 @@ class TestTables:
 
 
 class TestDataset:
-    """to_xarray().to_dataframe() is no product of all dimensions."""
+    """to_xarray().to_dataframe() is not a product of all dimensions."""
 
     @pytest.fixture
     def dataset(self, record):

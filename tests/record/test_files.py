@@ -223,7 +223,7 @@ DAMAGES = {
     "record.json of something else": lambda folder: (folder / "record.json").write_text('{"a": 1}'),
     "record.json no object": lambda folder: (folder / "record.json").write_text("[1, 2]"),
     "record.json with facts of another shape": lambda folder: (folder / "record.json").write_text('{"facts": [1]}'),
-    "record.json in bytes that are no text": lambda folder: (folder / "record.json").write_bytes(b"\xff\xfe\x00"),
+    "record.json in bytes that are not text": lambda folder: (folder / "record.json").write_bytes(b"\xff\xfe\x00"),
     "roster.npz missing": lambda folder: (folder / "roster.npz").unlink(),
     "roster.npz cut short": lambda folder: cut(folder / "roster.npz", 500),
     "tallies.npz missing": lambda folder: (folder / "tallies.npz").unlink(),

@@ -37,7 +37,7 @@ class TestEstimates:
         assert len(result.runs) == 4
         assert repr(result) == repr(
             estimate(result.runs, bounds=record.bounds(metric))
-        )  # a number that does not exist is no equal of itself
+        )  # a number that does not exist does not equal itself
 
     def test_of_one_run_have_an_interval_too(self, one_run):
         low, high = one_run.estimate("xi").ci95

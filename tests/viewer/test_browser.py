@@ -14,7 +14,7 @@ pytest.importorskip("starlette", reason="the viewer's libraries are not installe
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
 
 from shoal.viewer.replay import replay_page  # noqa: E402
-from shoal.viewer.server import page_app, serving, watching  # noqa: E402
+from shoal.viewer.server import page_app, serving, serving_session  # noqa: E402
 from shoal.viewer.session import Session  # noqa: E402
 
 CHROMIUM = [Path(path) for path in ("/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome")]
@@ -39,7 +39,7 @@ def browser():
 @pytest.fixture
 def address():
     """A run of oceans2020 that plays."""
-    with watching(Session([read_table("oceans2020")])) as where:
+    with serving_session(Session([read_table("oceans2020")])) as where:
         yield where
 
 
@@ -274,7 +274,7 @@ class TestComparing:
     def test_two_runs_share_their_time_and_stand_side_by_side(self, open_page):
         other = read_table("oceans2020")
         other["network"]["neighbors"] = 5
-        with watching(Session([read_table("oceans2020"), other])) as address:
+        with serving_session(Session([read_table("oceans2020"), other])) as address:
             page = open_page(address)
             page.get_by_role("region", name="Run B").wait_for()
             left, right = (page.get_by_role("region", name=f"Run {run}").bounding_box() for run in "AB")
@@ -289,7 +289,7 @@ class TestComparing:
 
 class TestALostEngine:
     def test_is_said_plainly_and_can_be_tried_again(self, browser):
-        with watching(Session([read_table("oceans2020")])) as address:
+        with serving_session(Session([read_table("oceans2020")])) as address:
             context = browser.new_context(viewport=DESK)
             page = context.new_page()
             page.goto(address)
@@ -299,7 +299,7 @@ class TestALostEngine:
         assert not page.evaluate("shoal.playing()")
         alert.get_by_role("button", name="Try again").click()
         page.get_by_text("The engine does not answer.").wait_for()
-        with watching(Session([read_table("oceans2020")]), port=int(address.rstrip("/").rpartition(":")[2])):
+        with serving_session(Session([read_table("oceans2020")]), port=int(address.rstrip("/").rpartition(":")[2])):
             alert.get_by_role("button", name="Try again").click()
             page.wait_for_function("() => shoal.playing()")
             assert not page.get_by_role("alert").is_visible()
@@ -308,7 +308,7 @@ class TestALostEngine:
 
 class TestARecording:
     def test_can_be_watched_and_not_changed(self, open_page):
-        with watching(Session([read_table("oceans2020")], limit=100_000)) as address:
+        with serving_session(Session([read_table("oceans2020")], limit=100_000)) as address:
             page = open_page(address)
             page.get_by_text("A record is being written").wait_for()
             assert page.get_by_role("slider", name="Target speed").is_disabled()

@@ -61,7 +61,7 @@ class TestInlinePage:
 
     def test_a_page_of_another_shape_is_refused(self, small_page, monkeypatch):
         monkeypatch.setitem(small_page, "index.html", "<html><head></head><body></body></html>")
-        with pytest.raises(ShoalError, match="build the page anew"):
+        with pytest.raises(ShoalError, match="build the page again"):
             inline_page({}, b"")
 
 

@@ -12,13 +12,13 @@ from shoal.core.errors import MissingExtraError, ShoalError
 from shoal.scenario.load import read_table
 from shoal.viewer import server
 from shoal.viewer.address import Guard, is_local, names_of, reachable
-from shoal.viewer.server import page_app, serving, watching
+from shoal.viewer.server import page_app, serving, serving_session
 from shoal.viewer.session import Session
 
 
 @pytest.fixture
 def address(small_page):
-    with watching(Session([read_table("oceans2020")])) as where:
+    with serving_session(Session([read_table("oceans2020")])) as where:
         yield where
 
 
@@ -259,7 +259,7 @@ class TestLive:
 class TestServing:
     def test_nothing_is_left_when_it_ends(self, small_page):
         before = set(threading.enumerate())
-        with watching(Session([read_table("oceans2020")])) as where, Page(where) as page:
+        with serving_session(Session([read_table("oceans2020")])) as where, Page(where) as page:
             page.next("frame")
         assert set(threading.enumerate()) <= before
         with pytest.raises(OSError, match=r"refused"):
@@ -271,7 +271,7 @@ class TestServing:
 
     @pytest.mark.parametrize("host", ["192.0.2.1", "no.such.name.invalid"])
     def test_an_address_that_is_not_ours_is_one_sentence(self, host):
-        with pytest.raises(ShoalError, match=r"--host: .* is no address of this machine"):
+        with pytest.raises(ShoalError, match=r"--host: .* is not an address of this machine"):
             serving(page_app(""), host=host).__enter__()
 
     def test_an_impossible_port_is_one_sentence(self):

@@ -84,8 +84,8 @@ def film(
         Of a scenario: any field by its path, such as network.neighbors=10; may be repeated.
     """
     load_compiler()
+    from shoal.drawing.arena_drawing import Parts
     from shoal.drawing.film import FilmLook, check_film, default_fps, write_film
-    from shoal.drawing.scene import Parts
 
     width, height = _size(size)
     look = FilmLook(fps, width, height, Parts(links, trails, halos, sensors), panels)
@@ -132,8 +132,8 @@ def _filmed(
     source: str, table: dict[str, Any], start: int, steps: int | None, every: int, run: int
 ) -> tuple[int, "Record"]:
     """Run a scenario, a little before `start` for the trails; return the first step shown, and the record."""
+    from shoal.drawing.arena_drawing import trail_steps
     from shoal.drawing.footage import footage
-    from shoal.drawing.scene import trail_steps
     from shoal.scenario.load import scenario_from
 
     scenario = scenario_from(table, where=source)

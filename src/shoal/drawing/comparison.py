@@ -25,7 +25,7 @@ _YARDSTICK = TARGET  # standing still is what every strategy has to beat: one co
 
 @dataclass(frozen=True)
 class Bar:
-    """Mean and 95 % interval of a strategy (None where it cannot be told); informed: it knows the target."""
+    """Mean and 95 % interval of a strategy (None where it cannot be determined); informed: it knows the target."""
 
     strategy: str
     mean: float
@@ -66,10 +66,10 @@ def bars_figure(panels: Sequence[Panel], x_label: str, yardstick: str = "lattice
             axes.set_xlim(*limits)
             axes.xaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
             axes.set_xlabel(x_label)
-        told = f"whiskers: 95 % interval over runs; dashed: {yardstick}"
+        note = f"whiskers: 95 % interval over runs; dashed: {yardstick}"
         if any(bar.informed for bar in panels[0].bars):
-            told += "; hatched: knows the target"
-        figure.text(1 - 0.1 / page[0], 0.05 / page[1], told, ha="right", va="bottom", fontsize=7, color=GRAY)
+            note += "; hatched: knows the target"
+        figure.text(1 - 0.1 / page[0], 0.05 / page[1], note, ha="right", va="bottom", fontsize=7, color=GRAY)
     return figure
 
 
@@ -101,8 +101,8 @@ def curves_figure(
         axes.set_xlabel(x_label)
         axes.grid(visible=True)
         axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.03), borderaxespad=0.1, handlelength=2.6)
-        told = "bands: 95 % interval over runs"
-        figure.text(1 - 0.1 / page[0], 0.05 / page[1], told, ha="right", va="bottom", fontsize=7, color=GRAY)
+        note = "bands: 95 % interval over runs"
+        figure.text(1 - 0.1 / page[0], 0.05 / page[1], note, ha="right", va="bottom", fontsize=7, color=GRAY)
     return figure
 
 

@@ -117,7 +117,7 @@ def _shade_absence(axes: "Axes", edges: npt.NDArray[np.float64], absent: npt.NDA
         left, right = max(stretches, key=lambda stretch: float(stretch[1] - stretch[0]))
         upright = 90.0 if right - left < 0.25 * edges[-1] else 0.0
         axes.text(
-            (left + right) / 2, top / 2, "no target there", rotation=upright, ha="center", va="center",
+            (left + right) / 2, top / 2, "no target present", rotation=upright, ha="center", va="center",
             fontsize=8, color=GRAY, zorder=2.3,
         )  # fmt: skip
 

@@ -66,7 +66,7 @@ class SensorDiscs:
 
 
 class _Discs:
-    """Circles with radii in the units of the axes, around the buoys that are there."""
+    """Circles with radii in the units of the axes, around the buoys present."""
 
     def __init__(self, axes: "Axes", gid: str, **look: Any) -> None:
         from matplotlib.collections import EllipseCollection

@@ -1,4 +1,4 @@
-"""Frames into a film: raw pixels piped to the ffmpeg that imageio-ffmpeg brings; whole or not at all (extra: video)."""
+"""Frames into a film: raw pixels piped to the ffmpeg that imageio-ffmpeg brings, written atomically (extra: video)."""
 
 import os
 import subprocess
@@ -91,9 +91,9 @@ def _palette(file: Path, ffmpeg: str, colors: Path, size: tuple[int, int], frame
 @contextmanager
 def _running(file: Path, command: list[str]) -> Iterator[IO[bytes]]:
     """Yield the standard input of a process; it has ended when the context has."""
-    with tempfile.TemporaryFile() as told:
+    with tempfile.TemporaryFile() as output:
         # a session of its own: Ctrl-C is for us, and we end it
-        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=told, stderr=told, start_new_session=True)
+        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=output, stderr=output, start_new_session=True)
         pipe = process.stdin
         assert pipe is not None  # asked for
         broken = False
@@ -104,8 +104,8 @@ def _running(file: Path, command: list[str]) -> Iterator[IO[bytes]]:
             except BrokenPipeError:
                 broken = True  # and it has said why
             if process.wait() != 0 or broken:
-                told.seek(0)
-                lines = told.read().decode(errors="replace").split("\n")
+                output.seek(0)
+                lines = output.read().decode(errors="replace").split("\n")
                 raise _failed(file, next((line for line in reversed(lines) if line.strip()), "ffmpeg failed"))
         finally:
             process.kill()

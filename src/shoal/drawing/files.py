@@ -1,4 +1,4 @@
-"""A figure on disk: SVG, PNG or PDF, whole or not at all, the same bytes for the same figure."""
+"""A figure on disk: SVG, PNG or PDF, written atomically, the same bytes for the same figure."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -29,7 +29,7 @@ def save_figure(figure: "Figure", path: str | Path, dpi: float | None = None) ->
     Raises
     ------
     ShoalError : another suffix
-    RecordError : it cannot be written, or Shoal did not make what is there; that is untouched
+    RecordError : it cannot be written, or Shoal did not make what has that name; that is untouched
     MissingExtraError : matplotlib is not installed
     """
     kind = figure_format(path)
@@ -49,7 +49,7 @@ def figure_format(path: str | Path) -> str:
     kind = Path(path).suffix.lower().removeprefix(".")
     if kind not in FORMATS:
         problem = (
-            f"ends in .{kind}, which is no format of a figure" if kind else "does not say the format of the figure"
+            f"ends in .{kind}, which is not a format of a figure" if kind else "does not say the format of the figure"
         )
         raise ShoalError(str(path), problem, f"name a file that ends in .{', .'.join(FORMATS[:-1])} or .{FORMATS[-1]}")
     return kind

@@ -1,21 +1,23 @@
 """Film: a stretch of a run as .mp4 or .gif, or one moment of it as .png (extra: video)."""
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from shoal.core.errors import ShoalError
 from shoal.core.files import check_file
+from shoal.drawing.arena_drawing import Parts
 from shoal.drawing.encoder import encoder, find_ffmpeg
 from shoal.drawing.files import save_figure
 from shoal.drawing.film_page import FilmPage, film_size
-from shoal.drawing.scene import Parts
 from shoal.drawing.snapshot import frames_of
 from shoal.drawing.stretch import stretch_of
 from shoal.drawing.style import require_matplotlib, style
 from shoal.record.record import Record
+
+if TYPE_CHECKING:
+    from shoal.run.simulate import ProgressCallback
 
 FORMATS = ("mp4", "gif", "png")
 SMALLEST, LARGEST = 200, 4096  # [pixel] a side
@@ -24,8 +26,6 @@ _FPS = {"mp4": 30.0, "gif": 20.0, "png": 1.0}
 _WIDTH = {"mp4": 720, "gif": 480, "png": 720}
 _WIDER = 1.5  # with charts
 _SAMPLES = 12  # frames from which a gif's colors are chosen
-
-Progress = Callable[[int, int], None]
 
 
 class FilmLook(NamedTuple):
@@ -45,7 +45,7 @@ PLAIN = FilmLook()
 
 
 class Film(NamedTuple):
-    """What was written: a film of so many frames, of the steps first to last, one in `every`; its size [pixel]."""
+    """What was written: number of frames, of the steps first to last, one in `every`; its size [pixel]."""
 
     file: Path
     frames: int
@@ -65,7 +65,7 @@ def write_film(
     steps: int | None = None,
     every: int | None = None,
     look: FilmLook = PLAIN,
-    progress: Progress | None = None,
+    progress: "ProgressCallback | None" = None,
 ) -> Film:
     """Write a film of the steps `start` to `start + steps - 1`, or of the last stretch kept that is evenly apart.
 
@@ -134,7 +134,7 @@ def default_fps(file: Path) -> float:
 
 
 def _encode(
-    page: FilmPage, file: Path, frames: int, size: tuple[int, int], fps: float, progress: Progress | None
+    page: FilmPage, file: Path, frames: int, size: tuple[int, int], fps: float, progress: "ProgressCallback | None"
 ) -> None:
     samples = b""
     if file.suffix.lower() == ".gif":

@@ -1,4 +1,4 @@
-"""Two charts beside a film's arena: who heads where now, and how many are on target over time."""
+"""Two charts beside a film's arena: current headings, and how many are on target over time."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -85,6 +85,6 @@ class Charts:
 
 
 def _phi_of_frames(record: Record, run: int, chosen: npt.NDArray[np.intp]) -> npt.NDArray[np.float64]:
-    """Agents of each fleet in each bin of phi at some frames, (K, F, 11); none where no target is there."""
+    """Agents of each fleet in each bin of phi at some frames, (K, F, 11); none where no target is present."""
     frames = record.trajectories[run]
     return np.nan_to_num([moment_of(frames, at, record.facts).phi for at in chosen.tolist()])

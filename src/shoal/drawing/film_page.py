@@ -6,9 +6,9 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.drawing.arena import arena_aspect
+from shoal.drawing.arena_drawing import ArenaDrawing, Parts
 from shoal.drawing.film_charts import Charts
 from shoal.drawing.legend import draw_legend, legend_height
-from shoal.drawing.scene import Parts, Scene
 from shoal.drawing.snapshot import state_text
 from shoal.drawing.stretch import Stretch
 from shoal.drawing.style import GRAY, INK, TARGET, new_figure
@@ -38,7 +38,7 @@ class FilmSize(NamedTuple):
 
 
 def film_size(record: Record, width: int, height: int | None, parts: Parts, panels: bool) -> FilmSize:
-    """The size of a film of so many pixels; without a height the arena decides."""
+    """The size of a film in pixels; without a height the arena decides."""
     width -= width % 2
     dpi = _dpi(min(width, height or width))
     if height is None:
@@ -66,7 +66,7 @@ class FilmPage:
         self.figure: Figure = new_figure(width, height)
         self.figure.set_dpi(size.dpi)
         self._axes = self._arena(width, height, parts, panels)
-        self._scene = Scene(self._axes, record, run, parts, stride=stretch.every, pad=_PAD)
+        self._drawing = ArenaDrawing(self._axes, record, run, parts, stride=stretch.every, pad=_PAD)
         self._bare(parts)
         self._texts = self._write(width, height, record.scenario.name)
         self._strip = self._time_strip(width, height)
@@ -77,13 +77,13 @@ class FilmPage:
         """Set everything to a frame of the stretch, by its number."""
         frame = int(self._stretch.frames[number])
         step = int(self._frames.step[frame])
-        self._scene.show(frame)
+        self._drawing.show(frame)
         time, state, share = self._texts
         time.set_text(f"step {count(step)}  \u00b7  {step * self._record.facts.time_step:.1f} s")
         state.set_text(state_text(self._frames, frame))
         state.set_color(TARGET if self._on_target[number] else GRAY)
-        told = np.isfinite(self._share[number]) and self._share.size > 1
-        share.set_text(f"time on target {100 * self._share[number]:.0f} %" if told else "")
+        known = np.isfinite(self._share[number]) and self._share.size > 1
+        share.set_text(f"time on target {100 * self._share[number]:.0f} %" if known else "")
         colors = self._strip_colors.copy()
         colors[number + 1 :] = _AHEAD
         self._strip.set_data(colors[None])
@@ -93,7 +93,7 @@ class FilmPage:
     def pixels(self, number: int) -> memoryview:
         """A frame of the stretch as RGBA bytes, rows from the top; valid until the next call."""
         canvas: Any = self.figure.canvas
-        moving = [*self._scene.artists, *self._texts, self._strip, *(self._charts.artists if self._charts else ())]
+        moving = [*self._drawing.artists, *self._texts, self._strip, *(self._charts.artists if self._charts else ())]
         if self._background is None:
             for artist in moving:
                 artist.set_animated(True)
@@ -126,7 +126,7 @@ class FilmPage:
         self._axes.set_yticks([])
         self._axes.set_xlabel("")
         self._axes.set_ylabel("")
-        self._scene.scale(always=True)
+        self._drawing.scale(always=True)
         shift, inside = self._margins
         draw_legend(self._axes, self._record, halos=parts.halos, sensors=parts.sensors, width=inside, shift=shift)
 

@@ -1,20 +1,22 @@
-"""Footage: frames of a run made to be looked at, and the present moment of a simulation."""
-
-from collections.abc import Callable
+"""Footage: frames of a run made to be looked at, and the current frame of a simulation."""
 
 from shoal.core.errors import ScenarioError
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.run.facts import facts_of
-from shoal.run.simulate import chunk_steps
+from shoal.run.simulate import ProgressCallback, chunk_steps
 from shoal.run.simulation import Simulation
 from shoal.scenario.schema import Scenario
 
-Progress = Callable[[int, int], None]
-
 
 def footage(
-    scenario: Scenario, steps: int, *, start: int = 0, every: int = 1, run: int = 0, progress: Progress | None = None
+    scenario: Scenario,
+    steps: int,
+    *,
+    start: int = 0,
+    every: int = 1,
+    run: int = 0,
+    progress: ProgressCallback | None = None,
 ) -> Record:
     """Run a scenario to step start + steps, and return the record with every `every`-th frame from `start` on.
 
@@ -41,7 +43,7 @@ def footage(
     return _record(scenario, simulation, Trajectory.join(parts))
 
 
-def present(simulation: Simulation) -> Record:
+def current_record(simulation: Simulation) -> Record:
     """Return a record of one frame, the state that a simulation is in; the simulation stays as it is."""
     return _record(simulation.scenario, simulation, simulation.look())
 

@@ -3,8 +3,8 @@
 from typing import TYPE_CHECKING
 
 from shoal.core.errors import RecordError
+from shoal.drawing.arena_drawing import ArenaDrawing, Parts
 from shoal.drawing.legend import draw_legend
-from shoal.drawing.scene import Parts, Scene
 from shoal.drawing.words import count, plural, time_text
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
@@ -42,9 +42,9 @@ def draw_snapshot(
     """
     frames = frames_of(record, run)
     last = _index(frames, frame)
-    scene = Scene(axes, record, run, Parts(links, trail != 0, halos, sensors), trail)
-    scene.show(last)
-    scene.scale()
+    drawing = ArenaDrawing(axes, record, run, Parts(links, trail != 0, halos, sensors), trail)
+    drawing.show(last)
+    drawing.scale()
     height = draw_legend(axes, record, halos=halos, sensors=sensors)
     axes.set_title(_moment(record, frames, run, last), pad=7.0 + POINTS * height)
 
@@ -78,7 +78,7 @@ def _moment(record: Record, frames: Trajectory, run: int, last: int) -> str:
 
 
 def state_text(frames: Trajectory, at: int) -> str:
-    """Who is there at a frame: 2 on target; or target absent; false alarms; how many of the buoys, if not all."""
+    """What is present at a frame: 2 on target; or target absent; false alarms; how many of the buoys, if not all."""
     engaged, alarms = int(frames.engaged[at].sum()), int((frames.on_target[at] & ~frames.engaged[at]).sum())
     there, agents = int(frames.alive[at].sum()), frames.alive.shape[1]
     state = f"{engaged} on target" if frames.target_present[at].any() else "target absent"

@@ -11,7 +11,7 @@ from shoal.core.errors import MissingExtraError
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# Okabe and Ito, "Color Universal Design", 2008: told apart by readers with any color vision.
+# Okabe and Ito, "Color Universal Design", 2008: distinct for readers with any color vision.
 INK = "#222222"
 GRAY = "#6b6b6b"
 GRID = "#e4e4e4"

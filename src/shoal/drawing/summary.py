@@ -23,7 +23,7 @@ _NAME = 70  # letters of its title
 
 
 def summary_figure(record: Record) -> "Figure":
-    """Return the page of `shoal run --figure`: the swarm, who heads where, time on target, what was run and how sure.
+    """Return the page of `shoal run --figure`: the swarm, headings relative to the target, time on target, settings.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Targets as discs of their size; one that is not there is not drawn."""
+"""Targets as discs of their size; absent ones are not drawn."""
 
 from typing import TYPE_CHECKING, Any
 

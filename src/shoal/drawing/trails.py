@@ -45,7 +45,7 @@ class TargetTrail:
 
 
 class AgentTrails:
-    """Where each buoy was up to `steps` ago, in the color of its fleet; of those that are there."""
+    """Where each buoy was up to `steps` ago, in the color of its fleet; of those present."""
 
     def __init__(self, axes: "Axes", record: Record, steps: int, stride: int = 1) -> None:
         from matplotlib.collections import LineCollection
@@ -88,13 +88,13 @@ def draw_whole_path(axes: "Axes", frames: Trajectory, target: int, radius: float
 
 
 def target_points(frames: Trajectory, window: slice, target: int) -> Points:
-    """Positions of a target (K, 2) [m]; NaN where it is not there."""
+    """Positions of a target (K, 2) [m]; NaN where it is absent."""
     points = np.stack([frames.target_x[window, target], frames.target_y[window, target]], axis=-1)
     return np.where(np.asarray(frames.target_present[window, target])[:, None], points, np.nan)
 
 
 def agent_paths(frames: Trajectory, window: slice) -> Points:
-    """Positions of the agents (N, K, 2) [m]; NaN where they are not there."""
+    """Positions of the agents (N, K, 2) [m]; NaN where they are absent."""
     points = np.stack([frames.x[window], frames.y[window]], axis=-1)
     return np.where(np.asarray(frames.alive[window])[..., None], points, np.nan).transpose(1, 0, 2)
 

@@ -45,12 +45,12 @@ def draw_trajectory_map(
     ------
     RecordError : no trajectory of this run, or a frame that is needed was not kept
     """
-    whole = frames_of(record, run)
-    kept, facts = np.asarray(whole.step), record.facts
+    all_frames = frames_of(record, run)
+    kept, facts = np.asarray(all_frames.step), record.facts
     if start is None and steps is None:
         steps = min(round(ARENA_UNITS * facts.unit / (max(facts.max_speeds) * facts.time_step)), int(kept[-1]) + 1)
     stretch = stretch_of(kept, start, steps, every)
-    frames = _part(whole, stretch.frames)
+    frames = _part(all_frames, stretch.frames)
     area, targets = record.scenario.area, record.scenario.targets
     side = max(area.width, area.height)
     draw_arena(axes, area)

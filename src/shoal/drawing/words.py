@@ -36,7 +36,7 @@ _FIELDS = {"target_speed": "target speed [m/s]", "neighbors": "neighbors, k", "f
 
 
 def shorten(text: str, letters: int) -> str:
-    """A text on one line, cut to so many letters; the cut is marked."""
+    """A text on one line, cut to a number of letters; the cut is marked."""
     text = plain(" ".join(text.split()))
     return text if len(text) <= letters else text[: letters - 1].rstrip() + "…"
 

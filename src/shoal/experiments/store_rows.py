@@ -118,7 +118,7 @@ class Columns:
         names = list(kinds)
         added = names[names.index("checksum") + 1 :] if "checksum" in names else []  # format 1 had none
         if any(kinds[name] != "REAL" for name in added):
-            raise ValueError(f"runs.sqlite has a column {added[0]!r}, which is no metric")
+            raise ValueError(f"runs.sqlite has a column {added[0]!r}, which is not a metric")
         return cls(tuple(name for name, kind in kinds.items() if kind == "REAL"), tuple(added))
 
     @property

@@ -90,7 +90,7 @@ def _problem_of_metric(metric: Metric) -> str | None:
         return f"metric {metric.name!r}: its formula is not a function"
     high = LIMITS.get(metric.high) if isinstance(metric.high, str) else metric.high
     if not isinstance(metric.low, (int, float)) or not isinstance(high, (int, float)):
-        return f"metric {metric.name!r}: its bounds are no numbers; high may also be one of {', '.join(LIMITS)}"
+        return f"metric {metric.name!r}: its bounds are not numbers; high may also be one of {', '.join(LIMITS)}"
     return _problem_of_words(metric.name, "metric", (metric.unit, metric.sentence))
 
 

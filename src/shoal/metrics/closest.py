@@ -12,7 +12,7 @@ NONE_SEEN = 1e300  # [m^2] where the smallest square begins: finite, so that tal
 
 @kernel
 def tally_closest(tally, step, world, swarm, targets, scratch):
-    """Keep the smallest squared distance [m^2] between two agents that are there, at the start of every 25th step."""
+    """Keep the smallest squared distance [m^2] between two agents present, at the start of every 25th step."""
     if step.number % EVERY != 0:
         return
     least = tally.closest[0]
@@ -38,7 +38,7 @@ def closest(tally: Any, facts: Facts) -> float:
 MEASUREMENT = Measurement(
     "closest",
     sums=(
-        Sum("closest", "m^2", "no sum: the least square of a distance between two agents", ("run",), start=NONE_SEEN),
+        Sum("closest", "m^2", "not a sum: least square of a distance between two agents", ("run",), start=NONE_SEEN),
     ),
     before_move=tally_closest,
     metrics=(

@@ -14,7 +14,7 @@ def tally_contacts(tally, step, world, swarm, targets, scratch):
     """Count the steps before the first detection, those in which a found target is lost, and how long losses last.
 
     A loss begins at the first step without a watcher after one with, and ends when somebody watches again; steps at
-    which the target is not there count for nothing. targets.lost holds the length of the loss under way, -1 before the
+    which the target is absent count for nothing. targets.lost holds the length of the current loss, -1 before the
     first detection. tally.loss_lengths counts ended losses by their length in powers of 2: bin b is [2^b, 2^(b+1)).
     """
     batch = step.batch
@@ -49,7 +49,7 @@ MEASUREMENT = Measurement(
         Metric(
             "first_detection",
             "s",
-            "time at which a target is there until it is first detected, mean over targets; the whole of it if never",
+            "time at which a target is present until it is first detected, mean over targets; all of it if never",
             lambda t, f: float(t.undetected.sum(axis=0).mean()) * f.time_step,
             better="lower",
             once=True,

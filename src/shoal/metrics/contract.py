@@ -44,7 +44,7 @@ class Step(NamedTuple):
 class Facts(NamedTuple):
     """What metrics need to know of a scenario.
 
-    fleets, counts, max_speeds : name, number of agents (those who join later too) and top speed [m/s] of each fleet
+    fleets, counts, max_speeds : name, number of agents (those that join later too) and top speed [m/s] of each fleet
     unit [m] : one arena unit; time_step [s]; area [m^2]; report_bytes : size of one report [B]
     """
 
@@ -58,7 +58,7 @@ class Facts(NamedTuple):
 
     @property
     def agents(self) -> int:
-        """All agents that are ever there."""
+        """All agents that ever take part."""
         return sum(self.counts)
 
 
@@ -69,7 +69,7 @@ class Sum(NamedTuple):
     unit, sentence : of what is added
     shape : "batch", or "run" of what is not added up but kept for the whole run; then "fleet", "agent" or "target" for
         one of each, or a number of bins
-    whole : whole numbers, int64 instead of float64
+    integer : whole numbers, int64 instead of float64
     start : what it begins at, finite
     """
 
@@ -77,7 +77,7 @@ class Sum(NamedTuple):
     unit: str
     sentence: str
     shape: tuple[str | int, ...] = ("batch",)
-    whole: bool = False
+    integer: bool = False
     start: float = 0.0
 
 

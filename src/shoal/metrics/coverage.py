@@ -64,7 +64,7 @@ MEASUREMENT = Measurement(
         Sum("covered", "1", "share of the cells passed through, summed over these"),
         Sum("sweeps", "1", "windows whose first 100 steps ended"),
         Sum("swept", "1", "share of the cells newly passed through, summed over these"),
-        Sum("seen", "1", "no sum: when each cell was passed through last", ("run", CELLS * CELLS), whole=True),
+        Sum("seen", "1", "not a sum: when each cell was passed through last", ("run", CELLS * CELLS), integer=True),
     ),
     before_move=tally_coverage,
     metrics=(

@@ -12,7 +12,7 @@ from shoal.metrics.tally import Tally
 def each_target(tally: Tally, facts: Facts) -> dict[str, Floats]:
     """Return time_on_target, first_detection [s], losses [1/h] and reacquisition [s] of every target, (T,) each.
 
-    Defined as for the swarm (METRICS), over the steps at which this target is there. NaN: it never was, or was never
+    Defined as for the swarm (METRICS), over the steps at which this target is present. NaN: it never was, or was never
     found again.
     """
     there = or_nan(tally.target_steps.sum(axis=0))

@@ -1,4 +1,4 @@
-"""Effort: the way that agents make, and a proxy of the energy it takes."""
+"""Effort: the distance travelled, and a proxy of the energy it takes."""
 
 import math
 from typing import Any
@@ -13,7 +13,7 @@ from shoal.metrics.shares import or_nan, share
 
 @kernel
 def tally_effort(tally, step, world, swarm, targets, scratch):
-    """Add the way of every agent in this step [m], and the cube of its speed times the step [m^3/s^2].
+    """Add the distance that every agent travels in this step [m], and the cube of its speed times the step [m^3/s^2].
 
     Drag grows like the square of the speed, so the power to overcome it grows like the cube: the proxy compares fleets
     and strategies, it is not joules.

@@ -1,4 +1,4 @@
-"""The network as a graph: how many parts it falls into, and how tightly it is knit."""
+"""The network as a graph: how many parts it falls into, and how clustered it is."""
 
 import numpy as np
 
@@ -15,7 +15,7 @@ def tally_graph(tally, step, world, swarm, targets, scratch):
     """Count the weakly connected components, and the mean clustering of the agents (Watts and Strogatz 1998).
 
     Clustering of i: of the pairs of agents that i hears, the share in which one hears the other; 0 of an agent that
-    hears fewer than two. Agents that are not there are no part of it. Known where all agents listen together.
+    hears fewer than two. Absent agents are not part of it. Known where all agents listen together.
     """
     if world.sequential or step.number % EVERY != 0:
         return
@@ -33,19 +33,19 @@ def tally_graph(tally, step, world, swarm, targets, scratch):
         components += there and part[i] == i
         active += there
     total = 0.0
-    ears = np.empty(agents, np.int64)
+    listened = np.empty(agents, np.int64)
     for i in range(agents):
         heard = 0
         for j in range(agents):
             if linked(links, j, i) and alive[j] > 0.0:
-                ears[heard] = j
+                listened[heard] = j
                 heard += 1
-        knit = 0
+        linked_pairs = 0
         for a in range(heard):
             for b in range(a):
-                one, other = ears[a], ears[b]
-                knit += linked(links, one, other) or linked(links, other, one)
-        total += 2.0 * knit / (heard * (heard - 1)) if heard > 1 else 0.0
+                one, other = listened[a], listened[b]
+                linked_pairs += linked(links, one, other) or linked(links, other, one)
+        total += 2.0 * linked_pairs / (heard * (heard - 1)) if heard > 1 else 0.0
     tally.graphs[step.batch] += 1.0
     tally.components[step.batch] += components
     tally.clustering[step.batch] += total / max(active, 1)

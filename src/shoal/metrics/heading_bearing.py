@@ -1,4 +1,4 @@
-"""Heading-bearing correlation phi: who moves toward the target (+1), away from it (-1), or not at all (0)."""
+"""Heading-bearing correlation phi: whether agents move toward the target (+1), away from it (-1), or not at all (0)."""
 
 import math
 from typing import Any
@@ -73,7 +73,7 @@ def bin_of(phi):
 
 @kernel
 def _nearest_bearing(swarm, agents, targets, bearing_x, bearing_y):
-    """Vector from each agent to its nearest target that is there."""
+    """Vector from each agent to its nearest target present."""
     for i in range(agents):
         bearing_x[i] = np.inf
         bearing_y[i] = 0.0
@@ -107,7 +107,7 @@ MEASUREMENT = Measurement(
         Sum(
             "histogram",
             "agents",
-            "of each fleet per bin of phi, over steps with a target there",
+            "of each fleet per bin of phi, over steps with a target present",
             ("batch", "fleet", BINS),
             True,
         ),
@@ -124,7 +124,7 @@ MEASUREMENT = Measurement(
         Metric(
             "stationary",
             "1",
-            "share of agents slower than a tenth of their top speed while a target is there",
+            "share of agents slower than a tenth of their top speed while a target is present",
             lambda t, f: share(t.stationary, t.histogram),
             label="stationary agents",
             high=1.0,

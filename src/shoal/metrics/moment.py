@@ -25,7 +25,7 @@ class Room(NamedTuple):
 
 @entry_kernel
 def tally_moment(tally, world, swarm, targets, scratch):
-    """Add one moment to a tally of a single batch; phi where a target is there.
+    """Add one moment to a tally of a single batch; phi where a target is present.
 
     world, scratch : Agents, Room
     swarm : x, y, vx, vy, command_x, command_y, max_speed, alive : (N,); fleet_end : (F,)

@@ -54,7 +54,7 @@ def robustness(tally: Tally, changes: Sequence[int], time_step: float) -> list[R
 
 
 def _timeline(tally: Tally) -> tuple[Floats, Floats, Floats]:
-    """First step of every part of the timeline that has steps, steps with a target there, and steps on target."""
+    """First step of every part of the timeline that has steps, steps with a target present, and steps on target."""
     parts = tally.timeline_present.shape[1]
     lengths = tally.batch_steps[:, None]
     begins = (np.cumsum(tally.batch_steps) - tally.batch_steps)[:, None]
@@ -64,5 +64,5 @@ def _timeline(tally: Tally) -> tuple[Floats, Floats, Floats]:
 
 
 def _share(present: Floats, on_target: Floats, which: npt.NDArray[np.bool_]) -> float:
-    whole = present[which].sum()
-    return float(on_target[which].sum() / whole) if whole > 0 else float("nan")
+    steps = present[which].sum()
+    return float(on_target[which].sum() / steps) if steps > 0 else float("nan")

@@ -15,14 +15,14 @@ def share(part: npt.NDArray[Any], whole: npt.NDArray[Any]) -> float:
 
 
 def fleet_agents(tally: Any) -> Floats:
-    """Mean number of agents of each fleet that are there, (F,)."""
+    """Mean number of agents of each fleet that are present, (F,)."""
     steps = tally.steps.sum()
     agents: Floats = tally.agent_steps.sum(axis=0) / (steps if steps > 0 else np.nan)
     return agents
 
 
 def mean_agents(tally: Any) -> float:
-    """N, the mean number of agents that are there; NaN if nobody ever is."""
+    """N, the mean number of agents present; NaN if never any."""
     return float(fleet_agents(tally).sum()) or float("nan")
 
 

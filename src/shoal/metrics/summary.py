@@ -71,10 +71,9 @@ def evaluate(name: str, tally: Tally, facts: Facts) -> tuple[float, Floats]:
 def batch_values(formula: Callable[[Tally], float], tally: Tally) -> Floats:
     """Return a metric in each batch that has one, (<= B,), so that their spread tells that of the whole run's value.
 
-    Those of the jackknife: n times the whole less (n - 1) times the run without the batch. The same as the batch's own
-    value where every batch weighs the same; of a ratio such as the time to find a target again, whose batches hold
-    more or fewer cases, they have no bias. Batches that the metric does not hear of (a loss that does not end) have
-    none.
+    Those of the jackknife: n times the value of all less (n - 1) times the run without the batch. The same as that
+    of the batch where every batch weighs the same; of a ratio such as the time to find a target again, whose batches
+    hold more or fewer cases, they have no bias. Batches without a case (a loss that does not end) have none.
     """
     batches = tally.steps.size
     whole = Tally._make(_summed(name, part) for name, part in zip(Tally._fields, tally, strict=True))

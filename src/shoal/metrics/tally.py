@@ -41,7 +41,7 @@ else:
 
 
 def new_tally(steps: int, batches: int, fleets: int, agents: int, targets: int) -> Tally:
-    """Return an empty tally of a run of so many steps."""
+    """Return an empty tally of a run."""
     edges = -(-np.arange(batches + 1) * steps // batches)  # step s belongs to batch s * batches // steps
     sizes = {"batch": batches, "run": 1, "fleet": fleets, "agent": agents, "target": targets}
     return Tally._make([np.diff(edges).astype(float), *(_empty(each, sizes) for each in SUMS.values())])
@@ -66,4 +66,4 @@ def of_batches(name: str) -> bool:
 
 def _empty(each: Sum, sizes: dict[str, int]) -> npt.NDArray[Any]:
     shape = [sizes[part] if isinstance(part, str) else part for part in each.shape]
-    return np.full(shape, each.start, np.int64 if each.whole else np.float64)
+    return np.full(shape, each.start, np.int64 if each.integer else np.float64)

@@ -11,7 +11,7 @@ WINDOWS = 50  # of the timeline, per batch
 
 @kernel
 def tally_time_on_target(tally, step, world, swarm, targets, scratch):
-    """Count a step, the agents that are on a target that is there (before the move), and the targets watched.
+    """Count a step, the agents that are on a present target (before the move), and the targets watched.
 
     The timeline counts the same in finer parts: window w of a batch is its steps from w / W to (w + 1) / W.
     """
@@ -47,12 +47,12 @@ MEASUREMENT = Measurement(
     "time_on_target",
     sums=(
         Sum("steps", "steps", "done"),
-        Sum("present", "steps", "with a target there"),
+        Sum("present", "steps", "with a target present"),
         Sum("on_target", "steps", "with an agent on it"),
         Sum("engaged", "agents", "on target, summed over steps"),
-        Sum("target_steps", "steps", "at which each target is there", ("batch", "target")),
+        Sum("target_steps", "steps", "at which each target is present", ("batch", "target")),
         Sum("watched", "steps", "at which somebody watches it", ("batch", "target")),
-        Sum("timeline_present", "steps", "with a target there, in windows of a batch", ("batch", WINDOWS)),
+        Sum("timeline_present", "steps", "with a target present, in windows of a batch", ("batch", WINDOWS)),
         Sum("timeline_on_target", "steps", "with an agent on it, in windows of a batch", ("batch", WINDOWS)),
     ),
     before_move=tally_time_on_target,
@@ -60,7 +60,7 @@ MEASUREMENT = Measurement(
         Metric(
             "time_on_target",
             "1",
-            "share of the steps with a target there at which an agent is on it",
+            "share of the steps with a target present at which an agent is on it",
             lambda t, f: share(t.on_target, t.present),
             better="higher",
             high=1.0,
@@ -68,7 +68,7 @@ MEASUREMENT = Measurement(
         Metric(
             "engaged",
             "agents",
-            "mean number of agents on target while a target is there",
+            "mean number of agents on target while a target is present",
             lambda t, f: share(t.engaged, t.present),
             label="engaged agents",
             better="higher",
@@ -77,9 +77,9 @@ MEASUREMENT = Measurement(
         Metric(
             "target_present",
             "1",
-            "share of the steps with a target there",
+            "share of the steps with a target present",
             lambda t, f: share(t.present, t.steps),
-            label="target there",
+            label="target present",
             once=True,
             high=1.0,
         ),

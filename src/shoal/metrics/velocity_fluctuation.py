@@ -14,7 +14,7 @@ def tally_velocity_fluctuation(tally, step, world, swarm, targets, scratch):
     """Add |u_i| = |v_i - mean v| of every agent, by fleet; v at the start of the step.
 
     Kwa et al., Heterogeneous Swarms, Eq. 5. Eq. 7 as printed sums vectors that cancel to zero; the norm is meant.
-    Agents that are not there lie still and count for nothing.
+    Absent agents lie still and count for nothing.
     """
     agents, size = world.agents, scratch.a
     there = 0
@@ -52,7 +52,7 @@ MEASUREMENT = Measurement(
     "velocity_fluctuation",
     sums=(
         Sum("fluctuation", "m/s", "|v_i - mean v|, summed over steps and the agents of each fleet", ("batch", "fleet")),
-        Sum("agent_steps", "1", "steps, summed over the agents of each fleet that are there", ("batch", "fleet")),
+        Sum("agent_steps", "1", "steps, summed over the agents of each fleet that are present", ("batch", "fleet")),
     ),
     before_move=tally_velocity_fluctuation,
     metrics=(

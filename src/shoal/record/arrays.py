@@ -122,7 +122,7 @@ def _read_like(stream: IO[bytes], like: npt.NDArray[Any], name: str) -> npt.NDAr
         raise ValueError(f"{name} is cut short or too long")
     values = np.frombuffer(content, kind).reshape(shape).copy()
     if not np.isfinite(values).all() or (values < 0).any():
-        raise ValueError(f"{name} holds a number that is no sum")
+        raise ValueError(f"{name} holds a number that is not a sum")
     return values
 
 
@@ -130,7 +130,7 @@ def _read_like(stream: IO[bytes], like: npt.NDArray[Any], name: str) -> npt.NDAr
 
 
 def check_trajectory(files: Mapping[str, Path], agents: int, *, targets: int, complete: bool) -> None:
-    """Refuse arrays of one run that are not frames of so many agents and targets, by their heads and sizes alone.
+    """Refuse arrays of one run that are not frames of this many agents and targets, by their heads and sizes alone.
 
     complete : of the format of today, with all arrays
 
@@ -150,7 +150,7 @@ def check_trajectory(files: Mapping[str, Path], agents: int, *, targets: int, co
 
 
 def check_frames(arrays: Mapping[str, npt.NDArray[Any]], steps: int) -> None:
-    """Refuse frames that are not in order, or that hold what is no number.
+    """Refuse frames that are not in order, or that hold what is not a number.
 
     Raises
     ------
@@ -168,7 +168,7 @@ def check_frames(arrays: Mapping[str, npt.NDArray[Any]], steps: int) -> None:
             else:
                 fine = (np.abs(part) < _LARGEST).all()  # NaN is not
             if not fine:
-                raise ValueError(f"{name} of the frames holds what is no number")
+                raise ValueError(f"{name} of the frames holds what is not a number")
 
 
 def _link_bytes(file: Path, agents: int) -> int:
@@ -187,7 +187,7 @@ def _frames_of(file: Path) -> int:
 def _check_file(file: Path, shape: tuple[int, ...], kind: np.dtype[Any]) -> None:
     name = f"{file.parent.name}/{file.name}"
     if not file.is_file():
-        raise ValueError(f"{name} is no file")
+        raise ValueError(f"{name} is not a file")
     with file.open("rb") as stream:
         found = _header(stream)
         begin = stream.tell()

@@ -99,7 +99,7 @@ def read_content(file: Path) -> RecordContent:
     """
     raw = json.loads(file.read_text(encoding="utf-8"), parse_constant=_no_number)
     if not isinstance(raw, dict):
-        raise ValueError("record.json is no object")
+        raise ValueError("record.json is not an object")
     _check_versions(str(file.parent), raw)
     if raw["format"] >= 2 and raw.get("checksum") != sum_of_content(raw):
         raise ValueError("record.json is not what was written")
@@ -133,7 +133,7 @@ def _scenario_of(raw: dict[str, Any]) -> RecordedScenario:
 
 
 def sum_of_content(content: dict[str, Any]) -> str:
-    """SHA-256 of a record.json but for its checksum; neither layout nor the order of keys counts."""
+    """SHA-256 of a record.json, its checksum excepted; neither layout nor the order of keys counts."""
     rest = {name: part for name, part in content.items() if name != "checksum"}
     return hashlib.sha256(json.dumps(rest, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
 
@@ -150,7 +150,7 @@ def _check_versions(where: str, raw: dict[str, Any]) -> None:
 
 
 def _no_number(constant: str) -> None:
-    raise ValueError(f"record.json: {constant} is no number")
+    raise ValueError(f"record.json: {constant} is not a number")
 
 
 def _hash_of(scenario: dict[str, Any]) -> str:

@@ -60,7 +60,7 @@ def to_xarray(record: "Record") -> "xarray.Dataset":
 
 
 def to_netcdf(record: "Record", path: str | Path) -> None:
-    """Write a record to a new NetCDF-4 file, whole or not at all.
+    """Write a record to a new NetCDF-4 file, atomically.
 
     Raises
     ------
@@ -73,7 +73,7 @@ def to_netcdf(record: "Record", path: str | Path) -> None:
 
 
 def to_zarr(record: "Record", path: str | Path) -> None:
-    """Write a record to a new zarr store (format 2, which every reader knows), whole or not at all.
+    """Write a record to a new zarr store (format 2, which every reader knows), atomically.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def _metric_variables(record: "Record") -> dict[str, Variable]:
     tallies, facts = record.tallies, record.facts
     values = {name: [evaluate(name, tally, facts) for tally in tallies] for name in METRICS}
     variables: dict[str, Variable] = {
-        name: (("run",), [whole for whole, _ in values[name]], _says(metric.unit, metric.sentence))
+        name: (("run",), [total for total, _ in values[name]], _says(metric.unit, metric.sentence))
         for name, metric in METRICS.items()
     }
     variables["time_on_target_batch"] = (
@@ -169,7 +169,7 @@ def _trajectory_variables(record: "Record") -> dict[str, Variable]:
         "target_is_present": (  # target_present is a metric
             targets_over,
             stack.flags("target_present"),
-            on_map | _flag("absent present", "target is there"),
+            on_map | _flag("absent present", "target is present"),
         ),
     }
     units = _memory_units(record)

@@ -1,6 +1,6 @@
 """A record on disk: a folder with record.json, roster.npz, tallies.npz and one folder of .npy files per recorded run.
 
-It is complete or not there (core/files.py), and says its own checksums: what was damaged later is refused.
+It is complete or absent (core/files.py), and says its own checksums: what was damaged later is refused.
 """
 
 import json

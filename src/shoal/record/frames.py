@@ -21,13 +21,13 @@ _TARGET = np.dtype([("x", np.float64), ("y", np.float64), ("present", np.int64)]
 
 
 def engaged_by_frame(frames: Trajectory) -> npt.NDArray[np.int64]:
-    """How many agents are on a target that is there, (K,). False alarms do not count."""
+    """How many agents are on a present target, (K,). False alarms do not count."""
     engaged: npt.NDArray[np.int64] = np.asarray(frames.engaged).sum(axis=1)
     return engaged
 
 
 def present_by_frame(frames: Trajectory) -> npt.NDArray[np.bool_]:
-    """Whether a target is there, (K,)."""
+    """Whether a target is present, (K,)."""
     present: npt.NDArray[np.bool_] = np.any(frames.target_present, axis=1)
     return present
 
@@ -36,8 +36,8 @@ class Moment(NamedTuple):
     """What the metrics say of one frame.
 
     xi : velocity fluctuation over the mean top speed
-    phi : (F, 11) agents of each fleet per bin of phi; NaN where no target is there. The heading is that of the velocity
-        which an agent last wanted, within its limits, the bearing that to the nearest target as the frame shows it
+    phi : (F, 11) agents of each fleet per bin of phi; NaN where no target is present. The heading is that of the
+        velocity which an agent last wanted, within its limits, the bearing that to the nearest target of the frame
     """
 
     xi: float

@@ -33,7 +33,7 @@ def roster_from(scenario: Scenario) -> Roster:
 
 
 def completed(arrays: Arrays, scenario: Scenario, roster: Roster) -> dict[str, npt.NDArray[Any]]:
-    """Frames with the arrays of today, as far as those that are there tell.
+    """Frames with the current arrays, as far as the stored ones tell.
 
     Engaged is whoever reports a target that is within its reach; the velocity wanted is taken to be the one made, k the
     one begun with. Links are not known.
@@ -50,7 +50,7 @@ def completed(arrays: Arrays, scenario: Scenario, roster: Roster) -> dict[str, n
 
 
 def _near(arrays: Arrays, scenario: Scenario, roster: Roster) -> npt.NDArray[np.bool_]:
-    """Whether an agent is within reach of a target that is there, (K, N)."""
+    """Whether an agent is within reach of a present target, (K, N)."""
     near = np.zeros(arrays["x"].shape, bool)
     for number, target in enumerate(scenario.targets):
         dx = arrays["x"] - arrays["target_x"][:, number, None]

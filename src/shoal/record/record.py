@@ -105,10 +105,10 @@ class Record:
 
     def _batches(self, metric: str) -> npt.NDArray[np.float64] | None:
         """Values in the batches of a single run, of a metric that has any."""
-        told = METRICS[metric]
-        if len(self.tallies) > 1 or told.once:
+        row = METRICS[metric]
+        if len(self.tallies) > 1 or row.once:
             return None
-        return batch_values(lambda tally: told.formula(tally, self.facts), self.tallies[0])
+        return batch_values(lambda tally: row.formula(tally, self.facts), self.tallies[0])
 
     def phi_histogram(self) -> npt.NDArray[np.float64]:
         """Mean agents per step in each bin of phi from -1 to +1, by fleet: (F, 11). All bins sum to N. Eq. 8."""
@@ -260,7 +260,7 @@ class Record:
             f"seed {about['seed']}, scenario {about['scenario_hash']}"
         )
 
-    if not TYPE_CHECKING:  # type checkers shall go on to know what there is
+    if not TYPE_CHECKING:  # hidden from type checkers, which know the names
 
         def __getattr__(self, name: str) -> Any:
             methods = [each for each in dir(type(self)) if not each.startswith("_")]

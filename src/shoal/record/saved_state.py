@@ -15,11 +15,11 @@ Arrays = Mapping[str, npt.NDArray[Any]]
 
 
 def write_state(file: str | Path, identity: str, arrays: Arrays) -> None:
-    """Write arrays and whose they are, whole or not at all; replace a saved state of this name.
+    """Write arrays and whose they are, atomically; replace a saved state of this name.
 
     Raises
     ------
-    RecordError : it cannot be written, or something else is there
+    RecordError : it cannot be written, or something else has that name
     """
     checksum = _sum_of(identity, arrays)
     with atomic_file(file, ours=True) as partial, partial.open("wb") as stream:
@@ -46,7 +46,7 @@ def read_state(
             lone = [name for name in sorted(held ^ like.keys()) if name.startswith(optional)]
             others = [name for name in sorted(held - like.keys()) if not name.startswith(optional)]
             if others:
-                raise ValueError(f"it has {others[0]}, which is no part of it")
+                raise ValueError(f"it has {others[0]}, which is not part of it")
             saved = {name: state[name] for name in sorted(held | (like.keys() - set(lone)))}
             for name, mine in like.items():
                 if name in saved and (saved[name].shape, saved[name].dtype) != (mine.shape, mine.dtype):

@@ -22,7 +22,7 @@ _FEW = 5  # runs listed one by one
 
 
 class Estimate(NamedTuple):
-    """Mean, 95 % confidence interval (None where it cannot be told) and the value of each run."""
+    """Mean, 95 % confidence interval (None where it cannot be determined) and the value of each run."""
 
     mean: float
     ci95: tuple[float, float] | None
@@ -127,7 +127,7 @@ def t_quantile(degrees: int) -> float:
 def two_sided(t: float, degrees: float) -> float:
     """Chance that Student's t lies further from zero than `t`; infinite `degrees` are the normal distribution.
 
-    Finite series of Abramowitz and Stegun, 26.7.3 and 26.7.4: exact, but no smaller chance than 1e-15 is told apart.
+    Finite series of Abramowitz and Stegun, 26.7.3 and 26.7.4: exact, but no smaller chance than 1e-15 is resolved.
     """
     t = abs(t)
     if math.isinf(degrees):

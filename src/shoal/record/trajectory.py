@@ -28,7 +28,7 @@ class Trajectory:
     step : (K,) number of the step
     x, y : (K, N) [m]; vx, vy : (K, N) [m/s] really made in the step before
     command_x, command_y : (K, N) [m/s] wanted in the step before, within the agent's limits, before the wall
-    on_target : (K, N) what an agent believes and reports; engaged : (K, N) it is on a target that is there
+    on_target : (K, N) what an agent believes and reports; engaged : (K, N) it is on a present target
     alive : (K, N) it is there; neighbors : (K, N) the k in force
     links : (K, N, W) whom agents really hear in the step, as bits: see `shoal.record.frames.who_hears_whom`
     target_x, target_y : (K, T) [m]; target_present : (K, T)
@@ -70,7 +70,7 @@ class Trajectory:
         memory = f"; memory: {plain(', '.join(self.memory))}" if self.memory else ""
         return f"of {frames:,} frames{steps}: {agents} agents, {targets} target{'s' * (targets != 1)}{memory}"
 
-    if not TYPE_CHECKING:  # type checkers shall go on to know what there is
+    if not TYPE_CHECKING:  # hidden from type checkers, which know the names
 
         def __getattr__(self, name: str) -> Any:
             raise no_attribute("a Trajectory", name, (*_PLAIN, "memory", "arrays"))
@@ -100,7 +100,7 @@ class Trajectory:
 
 
 class _Memory(dict[str, npt.NDArray[np.float64]]):
-    """Fields by name; one that is not there is answered with those that are."""
+    """Fields by name; a missing one is answered with those that exist."""
 
     def __missing__(self, name: str) -> npt.NDArray[np.float64]:
         raise UnknownNameError.of("memory", name, self)

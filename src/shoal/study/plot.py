@@ -17,14 +17,14 @@ import numpy as np
 from shoal.core.errors import RecordError, ScenarioError, did_you_mean, no_attribute
 from shoal.core.text import plain
 from shoal.drawing.arena import arena_aspect
+from shoal.drawing.arena_drawing import Parts
 from shoal.drawing.curves import Curve, draw_batches
 from shoal.drawing.files import save_figure
 from shoal.drawing.film import Film, FilmLook, write_film
-from shoal.drawing.footage import present
+from shoal.drawing.footage import current_record
 from shoal.drawing.histogram import draw_phi_histogram
 from shoal.drawing.layout import snapshot_size
 from shoal.drawing.legend import legend_height, map_legend_height, short_name
-from shoal.drawing.scene import Parts
 from shoal.drawing.snapshot import draw_snapshot, frames_of
 from shoal.drawing.stretch import frame_of
 from shoal.drawing.style import new_figure, style
@@ -102,7 +102,7 @@ def snapshot(
     ------
     RecordError : no such run or step was kept, or there is no a_R or sensor to show
     """
-    record = present(what) if isinstance(what, Simulation) else _record(what)
+    record = current_record(what) if isinstance(what, Simulation) else _record(what)
     run = _run(record, run)
     frame = -1 if step is None else frame_of(np.asarray(frames_of(record, run).step), step)
     size = _arena_page(record, lambda width: legend_height(record, width, halos=halos, sensors=sensors))

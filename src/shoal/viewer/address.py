@@ -83,7 +83,7 @@ def listen(host: str, port: int) -> socket.socket:
     try:
         family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
     except (OSError, UnicodeError):
-        raise ShoalError("--host", f"{host!r} is no address of this machine", f"leave it out for {LOCAL}") from None
+        raise ShoalError("--host", f"{host!r} is not an address of this machine", f"leave it out for {LOCAL}") from None
     listener = socket.socket(family, socket.SOCK_STREAM)
     try:
         if os.name == "posix":  # elsewhere it would share the port with whoever has it
@@ -93,7 +93,9 @@ def listen(host: str, port: int) -> socket.socket:
     except OSError as error:
         listener.close()
         if error.errno == errno.EADDRNOTAVAIL:
-            raise ShoalError("--host", f"{host!r} is no address of this machine", f"leave it out for {LOCAL}") from None
+            raise ShoalError(
+                "--host", f"{host!r} is not an address of this machine", f"leave it out for {LOCAL}"
+            ) from None
         problem = "is in use" if error.errno == errno.EADDRINUSE else f"cannot be had: {error.strerror}"
         raise ShoalError(f"--port {port}", problem, "name another, or leave it out for a free one") from None
     return listener

@@ -50,7 +50,7 @@ class Client:
             with suppress(asyncio.CancelledError, WebSocketDisconnect):
                 await telling
         if self._nonsense > NONSENSE:
-            await self._socket.close(1008, "too many messages that are no requests")
+            await self._socket.close(1008, "too many messages that are not requests")
 
     async def _tell(self) -> None:
         await self._socket.send_text(self._worker.hello)
@@ -76,7 +76,7 @@ class Client:
             await self._socket.send_text(view.status)
 
     async def _hear(self) -> None:
-        """Pass requests on; a page that talks nonsense is told so, and in the end not listened to."""
+        """Pass requests on; a page that sends nonsense gets an error, and is in the end disconnected."""
         while self._nonsense <= NONSENSE:
             message = await self._socket.receive()
             if message["type"] != "websocket.receive":

@@ -46,8 +46,8 @@ class LiveRun:
     Attributes
     ----------
     place : 0, or 1 of the second of two runs side by side
-    simulation : the run; its scenario is the one of now
-    message : the scene of now, as the page is told it
+    simulation : the run; its scenario is the current one
+    message : the current scene, as the page gets it
     """
 
     def __init__(self, table: Table, place: int = 0, *, where: str = "scenario", text: str = "") -> None:
@@ -59,11 +59,11 @@ class LiveRun:
         self._begin(scenario)
 
     def advance(self, steps: int) -> None:
-        """Go on so many steps."""
+        """Advance by a number of steps."""
         self.simulation.advance(steps)
 
     def frame(self) -> bytes:
-        """The bytes of the frame of now."""
+        """The bytes of the current frame."""
         shown = self.simulation.look()
         return pack(shown, 0, run=self.place, epoch=self._epoch, gauges=self._gauges(shown))
 
@@ -100,7 +100,7 @@ class LiveRun:
         self._become(self._table, changed)
 
     def add(self, fleet: int, x: float, y: float) -> None:
-        """Let an agent join a fleet (by its place among those of now) at x, y [m], as its last.
+        """Let an agent join a fleet (by its current place among those) at x, y [m], as its last.
 
         Raises
         ------
@@ -129,7 +129,7 @@ class LiveRun:
         move_target(self.simulation, target, x, y)
 
     def restart(self, seed: int | None = None) -> None:
-        """Begin anew with the settings of now, the killed back among the others."""
+        """Start over with the current settings, the killed back among the others."""
         if seed is not None:
             self._table = {**self._table, "seed": seed}
         self._begin(_scenario_of(self._table))

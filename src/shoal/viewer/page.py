@@ -37,7 +37,7 @@ def assets() -> dict[str, Asset]:
 
 
 def inline_page(scene: dict[str, object], frames: bytes) -> str:
-    """Return the whole page as one HTML text that shows these frames and loads nothing from anywhere.
+    """Return the page as one HTML text that shows these frames and loads nothing from anywhere.
 
     Its policy lets no script run but the page's own, known by its hash.
 
@@ -65,7 +65,7 @@ def inline_page(scene: dict[str, object], frames: bytes) -> str:
 def _replace(pattern: str, text: str, page: str) -> str:
     changed, count = re.subn(pattern, lambda _: text, page)
     if count != 1:
-        raise ShoalError("view/static/index.html", f"has {count} times {pattern}", "build the page anew")
+        raise ShoalError("view/static/index.html", f"has {count} times {pattern}", "build the page again")
     return changed
 
 

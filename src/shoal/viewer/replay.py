@@ -13,7 +13,7 @@ from shoal.viewer.ring import evenly
 
 Part = Literal["all", "end"]
 
-FRAMES = 2000  # in a page, if not told otherwise
+FRAMES = 2000  # in a page, unless asked otherwise
 
 
 def replay_page(record: Record, *, frames: int = FRAMES, part: Part = "all") -> str:
@@ -21,7 +21,7 @@ def replay_page(record: Record, *, frames: int = FRAMES, part: Part = "all") -> 
 
     Parameters
     ----------
-    frames : at most so many
+    frames : at most this many
     part : spread evenly in time over the whole run; or the last ones, as far as every step was kept
 
     Raises

@@ -13,7 +13,7 @@ Value = int | float | str | bool
 
 
 class RequestError(ShoalError):
-    """A message that is no request."""
+    """A message that is not a request."""
 
 
 class _Request(BaseModel):
@@ -33,7 +33,7 @@ class Pause(_Request):
 
 
 class Step(_Request):
-    """Go so many steps on; among older frames, one frame on or back."""
+    """Advance by a number of steps; among older frames, one frame on or back."""
 
     do: Literal["step"]
     steps: int = Field(default=1, ge=-1000, le=1000)
@@ -54,7 +54,7 @@ class Seek(_Request):
 
 
 class Restart(_Request):
-    """From step 0, with the settings of now."""
+    """From step 0, with the current settings."""
 
     do: Literal["restart"]
     seed: int | None = Field(default=None, ge=0, lt=2**64)

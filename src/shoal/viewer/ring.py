@@ -1,4 +1,4 @@
-"""The frames that a session keeps to go back to: the newest ones, within so many bytes."""
+"""The frames that a session keeps to go back to: the newest ones, within a number of bytes."""
 
 from bisect import bisect_right
 from collections import deque
@@ -57,11 +57,11 @@ class Ring:
         return self._kept[max(0, self._place(step))]
 
     def beside(self, step: int, frames: int) -> Kept:
-        """The frame that lies so many frames after (before, if negative) the one at a step."""
+        """The frame that lies a number of frames after (before, if negative) the one at a step."""
         return self._kept[min(max(0, self._place(step) + frames), len(self._kept) - 1)]
 
     def spread(self, frames: int) -> list[Kept]:
-        """At most so many of the frames, spread evenly over their steps, the oldest and the newest among them."""
+        """At most `count` of the frames, spread evenly over their steps, the oldest and the newest among them."""
         with self._lock:
             kept = list(self._kept)
         steps = np.fromiter((each.step for each in kept), np.int64, len(kept))
@@ -78,7 +78,7 @@ class Ring:
 
 
 def evenly(steps: npt.NDArray[np.int64], frames: int) -> npt.NDArray[np.int64]:
-    """Indices of at most so many frames spread evenly in time, given the steps of all in order (K,)."""
+    """Indices of at most `count` frames spread evenly in time, given the steps of all in order (K,)."""
     if steps.size <= frames:
         return np.arange(steps.size)
     wanted = np.linspace(steps[0], steps[-1], frames)

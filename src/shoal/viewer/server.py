@@ -26,7 +26,7 @@ _HEADERS = {
 
 
 @contextmanager
-def watching(session: Session, host: str = LOCAL, port: int = 0) -> Iterator[str]:
+def serving_session(session: Session, host: str = LOCAL, port: int = 0) -> Iterator[str]:
     """Run a session and serve it while this is a context; gives the address. Port 0 is a free one.
 
     Raises
@@ -66,7 +66,7 @@ def serving(app: "Starlette", host: str = LOCAL, port: int = 0) -> Iterator[str]
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]}, name="shoal-server")
     thread.start()
     try:
-        yield f"http://{reachable(host)}:{listener.getsockname()[1]}/"  # it listens already: who comes early waits
+        yield f"http://{reachable(host)}:{listener.getsockname()[1]}/"  # it listens already: early requests wait
     finally:
         server.should_exit = True
         thread.join()

@@ -205,7 +205,7 @@ class Session:
         self._keep()
 
     def _keep(self) -> None:
-        """Keep the frame of now, and show it."""
+        """Keep the current frame, and show it."""
         scenes = tuple(run.message for run in self.runs)
         self._ring.add(Kept(self.number, scenes, tuple(run.frame() for run in self.runs)))
         self.shown = self._ring.newest

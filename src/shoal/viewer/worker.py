@@ -1,4 +1,4 @@
-"""The thread that runs a session: it keeps time, obeys requests between frames, and waits for nobody who watches."""
+"""The thread that runs a session: it keeps time, obeys requests between frames, and waits for no watcher."""
 
 import threading
 import time
@@ -24,7 +24,7 @@ class View(NamedTuple):
 
 
 class Watcher(NamedTuple):
-    """Who is told, from the worker's thread: that `view` has changed; that something failed."""
+    """What hears, from the worker's thread, that `view` has changed; that something failed."""
 
     changed: Callable[[], None]
     failed: Callable[[str], None]

@@ -20,7 +20,7 @@ class Links(NamedTuple):
     """Squared distances [m^2] from speaker (row) to listener (lane), and each listener's reach; the rest is scratch.
 
     Rows are padded to an even number with infinity; an agent is infinitely far from itself. `wanted` is k of each
-    listener where not all pairs can be linked. `rank` says how many of those heard are nearer, agents for who is not
+    listener where not all pairs can be linked. `rank` says how many of those heard are nearer, agents for those not
     heard; it has no rows where the strategy does not ask.
     """
 
@@ -62,7 +62,7 @@ def new_links(agents: int, lanes: int, ranked: bool = False) -> Links:
 
 @kernel
 def linked(links, j, i):
-    """Whether listener i hears speaker j: whoever asks, asks here, so that neighbors can be found in another way."""
+    """Whether listener i hears speaker j: the one place that is asked, so that neighbors can be found differently."""
     return links.square[j, i] <= links.reach[i]
 
 
@@ -129,22 +129,22 @@ def count_heard(links, agents):
 
 @kernel
 def settle_ties(links, neighbors, agents):
-    """Mend the listeners whose `links.heard` is not k; return whether there were any."""
-    mended = False
+    """Correct the listeners whose `links.heard` is not k; return whether there were any."""
+    corrected = False
     for i in range(links.reach.size):
         if links.heard[i] != min(neighbors[i], agents):
             _settle_tie(links, i, neighbors[i], agents)
-            mended = True
-    return mended
+            corrected = True
+    return corrected
 
 
 _FARTHEST = 1e300
-_FEW = 4  # a quarter of the lanes is cheaper to mend one by one
+_FEW = 4  # a quarter of the lanes is cheaper to correct one by one
 
 
 @kernel
 def _count(links):
-    """Count who is within reach, and find the farthest within and the nearest beyond. Two rows a turn: 15 % faster."""
+    """Count speakers within reach; find the farthest within and the nearest beyond. Two rows a turn: 15 % faster."""
     rows, lanes = links.square.shape
     square, reach, heard, below, above = links.square, links.reach, links.heard, links.below, links.above
     for i in range(lanes):
@@ -180,7 +180,7 @@ def _count(links):
 def _step_once(links, neighbors):
     """Step every reach over one speaker toward hearing k; return how many listeners a better guess would bring nearer.
 
-    `off` is how many speakers were missing. No branches: who is how far off is chance, and a wrong prediction costs
+    `off` is how many speakers were missing. No branches: how far off each lies is chance, and a wrong prediction costs
     more than all of this.
     """
     reach, heard, below, above, low, high, off = (
@@ -275,7 +275,7 @@ def _settle_tie(links, i, k, agents):
                 second = d
         if within < k and beyond < np.inf:
             reach = beyond
-        elif within - equal >= k and second >= 0.0:  # it is below zero where distances are no numbers
+        elif within - equal >= k and second >= 0.0:  # it is below zero where distances are NaN
             reach = second
         else:
             break

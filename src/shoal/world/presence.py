@@ -1,17 +1,17 @@
-"""Who is there: agents that are lost or join during a run."""
+"""Which agents are present: some are lost or join during a run."""
 
 import math
 
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import START_STEP, split, uniform
 
-_WEAR = 1 << 22  # purposes that no strategy draws for
-_LOT = _WEAR + 1
+_LIFETIME_DRAW = 1 << 22  # purposes that no strategy draws for
+_LOSS_DRAW = _LIFETIME_DRAW + 1
 
 
 @kernel
 def is_there(number, joins, leaves):
-    """Whether an agent that joins and leaves at these steps is there at step `number`."""
+    """Whether an agent that joins and leaves at these steps is present at step `number`."""
     return joins <= number < leaves
 
 
@@ -23,11 +23,14 @@ def lifetime(chance, mean):
 
 @kernel
 def draw_lifetimes(swarm, world, lifetimes, run_key):
-    """Let agents of fleets with a mean lifetime [s] fail at constant rate; exponential, by inversion."""
+    """Let agents of fleets with a mean lifetime fail at a constant rate: set the step at which each leaves.
+
+    lifetimes : (F,) mean of each fleet [s], 0 for none; run_key : of all chance of the run
+    """
     for i in range(world.agents):
         mean = lifetimes[swarm.fleet[i]]
         if mean > 0.0:
-            chance = uniform(split(split(run_key, START_STEP), i), _WEAR)
+            chance = uniform(split(split(run_key, START_STEP), i), _LIFETIME_DRAW)
             steps = lifetime(chance, mean) / world.time_step
             swarm.leaves[i] = swarm.joins[i] + 1 + int(min(steps, 1e15))
 
@@ -39,7 +42,7 @@ def draw_losses(swarm, world, number, fleet, count, run_key):
         chosen = -1
         lowest = 2.0
         for i in range(world.agents):
-            lot = uniform(split(split(run_key, START_STEP), i), _LOT + number)
+            lot = uniform(split(split(run_key, START_STEP), i), _LOSS_DRAW + number)
             there = is_there(number, swarm.joins[i], swarm.leaves[i])
             if there and (fleet == -1 or swarm.fleet[i] == fleet) and lot < lowest:
                 chosen = i
@@ -50,7 +53,7 @@ def draw_losses(swarm, world, number, fleet, count, run_key):
 
 @kernel
 def update_presence(swarm, world, number):
-    """Set who is alive at a step and return how many; who is not lies still."""
+    """Set which agents are alive at step `number` and return how many; the others lie still."""
     active = 0
     for i in range(world.agents):
         there = is_there(number, swarm.joins[i], swarm.leaves[i])

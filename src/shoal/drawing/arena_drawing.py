@@ -1,4 +1,4 @@
-"""Scene: the arena and all in it, drawn once; `show` moves it to another frame."""
+"""The arena and all in it, drawn once; `show` moves it to another frame."""
 
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
@@ -22,7 +22,7 @@ _TRAILED = 1000  # more buoys than this draw no trails
 
 
 class Parts(NamedTuple):
-    """What a scene shows besides buoys and targets."""
+    """What is drawn besides buoys and targets."""
 
     links: bool = False  # a line to each buoy that is really heard
     trails: bool = True
@@ -39,7 +39,7 @@ class Actor(Protocol):
         """Move to a frame."""
 
 
-class Scene:
+class ArenaDrawing:
     """The arena of one run in axes of its own.
 
     Parameters
