@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 
-from shoal.compiler.kernel import uncached
 from shoal.core.agents import as_records, width
 from shoal.core.messages import Own, Report
 from shoal.core.wire import told_class
@@ -20,7 +19,7 @@ class CompiledMind:
         self._numbers = np.zeros((1, width(crew.memory)))
         self.memory = as_records(self._numbers, crew.memory)
         self._told = told_class(crew.told)
-        self._begin, self._decide = _entry_points(crew)
+        self._begin, self._decide = crew.compiled(begin_one, decide_one)
         self._key = np.uint64(key_of_run(np.uint64(seed), run))
 
     def remembered(self) -> dict[str, float]:
@@ -51,16 +50,3 @@ class CompiledMind:
         sums = np.zeros((self.crew.sums, 1))
         vx, vy = self._decide(me, said, sums, self.memory, self.crew.params, self._key, step)
         return float(vx), float(vy)
-
-
-_UNCACHED: dict[Any, tuple[Any, Any]] = {}
-
-
-def _entry_points(crew: Crew) -> tuple[Any, Any]:
-    """The compiled functions: from the cache for our own strategies, fresh ones for a user's."""
-    if crew.builtin:
-        return begin_one, decide_one
-    kind = tuple(each.params for each in crew.strategies)
-    if kind not in _UNCACHED:
-        _UNCACHED[kind] = (uncached(begin_one), uncached(decide_one))
-    return _UNCACHED[kind]

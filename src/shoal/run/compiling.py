@@ -1,24 +1,10 @@
-"""The engine compiled for a strategy: its entry points, and whether they are cached."""
+"""The engine compiled for a strategy: whether it is, and is kept."""
 
 from pathlib import Path
-from typing import Any
 
-from shoal.compiler.kernel import cache_folder, uncached, why_uncached
-from shoal.engine.rollout import begin_run, rollout
+from shoal.compiler.kernel import cache_folder, why_uncached
 from shoal.scenario.crew import Crew, crew_of
 from shoal.scenario.schema import Scenario
-
-_UNCACHED: dict[Any, tuple[Any, Any]] = {}
-
-
-def entry_points(crew: Crew) -> tuple[Any, Any]:
-    """begin_run and rollout: from the cache for our own strategies, fresh ones for a user's."""
-    if crew.builtin:
-        return begin_run, rollout
-    kind = tuple(each.params for each in crew.strategies)
-    if kind not in _UNCACHED:
-        _UNCACHED[kind] = (uncached(begin_run), uncached(rollout))
-    return _UNCACHED[kind]
 
 
 def needs_compiling(scenario: Scenario) -> bool:

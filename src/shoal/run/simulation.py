@@ -15,13 +15,12 @@ from shoal.core.plugin_errors import plugin_errors
 from shoal.core.text import plain
 from shoal.core.version import RESULTS_VERSION
 from shoal.engine.phases import SPOILED_DRIFT, SPOILED_TARGETS, addresses
-from shoal.engine.rollout import look, set_out
+from shoal.engine.rollout import begin_run, look, rollout, set_out
 from shoal.engine.stage import Frames, Run, Stage, new_frames, new_scratch
 from shoal.metrics.tally import never_counted, new_tally
 from shoal.record.saved_state import read_state, write_state
 from shoal.record.trajectory import Trajectory
 from shoal.run.build import build_nature, build_radio, build_swarm, build_targets, build_world, losses_of
-from shoal.run.compiling import entry_points
 from shoal.run.facts import roster_of
 from shoal.run.state import State, arrays_of, read_only, state_of
 from shoal.scenario.crew import crew_of
@@ -87,7 +86,7 @@ class Simulation:
         self.moment: State = read_only(self._state)
         self.tally = self.moment.tally
         self._scratch = new_scratch(self.world, self._swarm.x.size, self.crew.sums, self.crew.ranked)
-        self._begin, self._rollout = entry_points(self.crew)
+        self._begin, self._rollout = self.crew.compiled(begin_run, rollout)
         self._which = Run(np.uint64(scenario.seed), run, scenario.steps)
         self._phases = addresses()
         self._placed = Placed(self._stage(self._new_frames(0)))

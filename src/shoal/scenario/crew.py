@@ -1,5 +1,6 @@
 """Which strategies a scenario's fleets follow, as the engine takes them: one, or a team of several."""
 
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Any
@@ -8,6 +9,7 @@ from shoal.core.errors import ScenarioError
 from shoal.scenario.schema import Scenario
 from shoal.scenario.strategy_choice import StrategyChoice
 from shoal.strategies import Strategy
+from shoal.strategies.compiled import compiled_for
 from shoal.strategies.errors import strategy_errors
 from shoal.strategies.team import MOST, depth_of, team
 
@@ -53,6 +55,10 @@ class Crew:
     def source(self) -> str:
         """File of the first strategy that a user wrote, or else of the first."""
         return next((each for each in self.strategies if not each.builtin), self.strategies[0]).source
+
+    def compiled(self, *entries: Callable[..., Any]) -> tuple[Callable[..., Any], ...]:
+        """Entry kernels of the engine, or of a buoy, for these strategies."""
+        return compiled_for(self.strategies, *entries)
 
     def naming_errors(self) -> AbstractContextManager[None]:
         """A context in which what a user's strategy gets wrong becomes one StrategyError that names its line."""
