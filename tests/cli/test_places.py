@@ -124,7 +124,7 @@ def test_places_that_work(verb, place, capsys):
     Path("dangling").symlink_to("target")
     code, _, err = shoal(capsys, *FOLDERS[verb], place)
     assert code == 0, err
-    made = {"run": ["record.json", "run-0000", "tallies.npz"]}.get(verb, ["results.csv", "runs.sqlite"])
+    made = {"run": ["record.json", "roster.npz", "run-0000", "tallies.npz"]}.get(verb, ["results.csv", "runs.sqlite"])
     assert sorted(os.listdir(place)) == made
     assert not [each for each in Path().rglob("*") if "partial" in each.name or "lock" in each.name]
 
