@@ -90,7 +90,7 @@ def state_of(simulation):
     return oracle.State(
         x=np.stack([swarm.x[:n], swarm.y[:n]], axis=1),
         v=np.stack([swarm.vx[:n], swarm.vy[:n]], axis=1) * simulation.scenario.time_step,
-        a=np.array(simulation.minds.memory["repulsion"][:n]),
+        a=np.array(simulation.memories.memory["repulsion"][:n]),
         target=np.array([target["x"], target["y"]]),
         heading=np.array([target["heading_x"], target["heading_y"]]),
         waypoint=np.array([target["waypoint_x"], target["waypoint_y"]]),

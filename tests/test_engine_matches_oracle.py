@@ -241,4 +241,4 @@ class TestPresets:
         simulation = Simulation(scenario("aamas2020-constant"))
         simulation.advance(500)
         assert simulation.tally.on_target.sum() > 0
-        assert set(simulation.minds.memory["repulsion"][:50].tolist()) == {oracle.A_START}
+        assert set(simulation.memories.memory["repulsion"][:50].tolist()) == {oracle.A_START}

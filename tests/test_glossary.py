@@ -18,13 +18,13 @@ DICTIONARY = """
 actor adaptive add address any around array arrived assembled asset atomic bar bound box build cannot carry change
 chart check
 choice choose clean cli client column command compare compared compiled compiler compiling console content
-core count crash csv data dataframe dataset declared difference disc dispatch dive drag drawing duration each edit
+core count crash csv data dataframe dataset declared difference disc dispatch dive doc drag drawing duration each edit
 effort encoder ended error executor experiment export extra figure file film fixed folder format frontier frozen
 geojson gpx graph ground guard histogram info inner installed interval is kept keyword kill kml label layout
 legend listen listing live load lock locked look main map mark meaning measure message meta missing move
 moving name named netcdf new nmea no now numba older one option output over page paired panel param pause
 picture place placement plain play plot plugin print private progress published quantity range read reason recorded
-reproduce restart result robustness running said saved say schema scored seek seen self sensing sensitivity
+reproduce restart result robustness running said saved schema scored seek seen self sensing sensitivity
 sensor server several shoal show side signal simulate simulation size stamp startup statement statistic stop
 stopped strategy style summary swept table text top tree unknown varied vehicle version view wanted watch
 watched word writer xml

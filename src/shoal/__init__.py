@@ -14,7 +14,7 @@ list_strategies, list_metrics, list_presets    what there is
 strategy, kernel, uniform, normal              to write a strategy, with the units
 Meters, MetersPerSecond, Seconds, Degrees      of its parameters
 Measurement, Sum, Metric                       to write a metric
-Range, Says                                    of the options of a target or a disturbance
+Range, Doc                                    of the options of a target or a disturbance
 plot                                           every figure, in one line each
 Buoy, Reading, Report, briefing                to decide on board, without an engine
 ShoalError                                     base of every error raised on purpose
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from shoal.core.draws import normal, uniform
     from shoal.core.errors import ShoalError
     from shoal.core.messages import Reading, Report
-    from shoal.core.units import Degrees, Meters, MetersPerSecond, Range, Says, Seconds
+    from shoal.core.units import Degrees, Doc, Meters, MetersPerSecond, Range, Seconds
     from shoal.metrics.contract import Measurement, Metric, Sum
     from shoal.paper.reproduce import reproduce
     from shoal.record.files import open_record, save_record
@@ -55,7 +55,7 @@ _HOMES = {
     "shoal.core.draws": ("normal", "uniform"),
     "shoal.core.errors": ("ShoalError",),
     "shoal.core.messages": ("Reading", "Report"),
-    "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Range", "Says", "Seconds"),
+    "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Range", "Doc", "Seconds"),
     "shoal.metrics.contract": ("Measurement", "Metric", "Sum"),
     "shoal.paper.reproduce": ("reproduce",),
     "shoal.record.files": ("open_record", "save_record"),
@@ -77,6 +77,7 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
     "Buoy",
     "Degrees",
+    "Doc",
     "Measurement",
     "Meters",
     "MetersPerSecond",
@@ -85,7 +86,6 @@ __all__ = [
     "Reading",
     "Record",
     "Report",
-    "Says",
     "Scenario",
     "Seconds",
     "ShoalError",

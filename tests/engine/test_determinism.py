@@ -81,7 +81,7 @@ class TestCutting:
             swarm, target = stepped.swarm, stepped.targets[0]
             assert frames.x[t].tolist() == swarm.x[:65].tolist()
             assert frames.vy[t].tolist() == swarm.vy[:65].tolist()
-            assert frames.memory["repulsion"][t].tolist() == stepped.minds.memory["repulsion"][:65].tolist()
+            assert frames.memory["repulsion"][t].tolist() == stepped.memories.memory["repulsion"][:65].tolist()
             assert (frames.target_x[t, 0], frames.target_y[t, 0]) == (target["x"], target["y"])
             assert frames.on_target[t].tolist() == swarm.on_target[:65].tolist()
             stepped.advance(1)
@@ -195,7 +195,7 @@ class TestCrowds:
         for _ in range(STEPS):
             simulation.advance(1)
             assert np.isfinite([swarm.x, swarm.y, swarm.vx, swarm.vy]).all()
-            assert np.isfinite(simulation.minds.memory["repulsion"]).all()
+            assert np.isfinite(simulation.memories.memory["repulsion"]).all()
             assert np.abs([swarm.x[:agents], swarm.y[:agents]]).max() <= 8.5
             assert np.hypot(swarm.vx[:agents], swarm.vy[:agents]).max() <= 1.0 + 1e-12
         assert np.isfinite(simulation.tally.fluctuation).all()

@@ -41,7 +41,7 @@ def state_of(simulation):
     return {
         "places": np.stack([swarm.x[:n], swarm.y[:n]]),
         "velocities": np.stack([swarm.vx[:n], swarm.vy[:n]]),
-        "repulsion": simulation.minds.memory["repulsion"][None, :n].copy(),
+        "repulsion": simulation.memories.memory["repulsion"][None, :n].copy(),
         "target": np.array([target["x"], target["y"]]),
         "heading": np.array([target["heading_x"], target["heading_y"]]),
         "waypoint": np.array([target["waypoint_x"], target["waypoint_y"]]),

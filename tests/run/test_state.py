@@ -131,7 +131,7 @@ class TestDoor:
             lambda s: s.swarm.max_speed,
             lambda s: s.targets["x"],
             lambda s: s.tally.steps,
-            lambda s: s.minds.memory["best_time"],
+            lambda s: s.memories.memory["best_time"],
             lambda s: s.moment.air.x,
             lambda s: s.state()["swarm.x"],
         ],

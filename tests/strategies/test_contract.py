@@ -154,7 +154,7 @@ class TestRunning:
 
         slower = Simulation(using(tmp_path / "my_strategy.py", turn_chance=0.0))
         slower.advance(STEPS)
-        assert not slower.minds.memory["turns"].any()
+        assert not slower.memories.memory["turns"].any()
 
         after = Simulation(scenario())
         after.advance(50)

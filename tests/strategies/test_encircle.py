@@ -15,7 +15,7 @@ FAR = (8.0, 8.0)
 
 def memories(simulation, *fields):
     """(N, fields)"""
-    memory = simulation.minds.memory[: simulation.scenario.agents]
+    memory = simulation.memories.memory[: simulation.scenario.agents]
     return np.stack([memory[field] for field in fields], axis=1)
 
 

@@ -27,7 +27,7 @@ def test_rounds_are_the_fewest_that_cover_the_part(side):
 def test_the_way_leads_through_all_corners_and_starts_again():
     """The slow one of two has a quarter of 20 m x 20 m: 10 m, two rounds of tracks 2 m apart cover it."""
     simulation = staged("expanding-square", [(0, 0), (0, 0)], top=[1.0, 3.0])
-    datum = np.array([simulation.minds.memory["datum_x"][0], simulation.minds.memory["datum_y"][0]])
+    datum = np.array([simulation.memories.memory["datum_x"][0], simulation.memories.memory["datum_y"][0]])
     assert datum == pytest.approx([-7.5, 0.0])  # the middle of the first quarter
     frames = simulation.advance(2000, every=1)
     leg = frames.memory["leg"][:, 0]

@@ -42,5 +42,5 @@ def test_repulsion_grows_alone_and_shrinks_in_company_of_a_contact():
         seen = []
         for _ in then:
             simulation.advance(1)
-            seen.append(simulation.minds.memory["repulsion"][:2].tolist())
+            seen.append(simulation.memories.memory["repulsion"][:2].tolist())
         assert seen == [pytest.approx([a, a]) for a in then]

@@ -14,7 +14,7 @@ def covering(*makes, **params):
 
 
 def stations(simulation):
-    memory = simulation.minds.memory[: simulation.scenario.agents]
+    memory = simulation.memories.memory[: simulation.scenario.agents]
     return np.stack([memory["station_x"], memory["station_y"]], axis=1)
 
 

@@ -17,7 +17,7 @@ def intercepting(agent, target, waypoint, near=100.0, top=1.0):
     with simulation.edit() as now:
         for name, value in (("", target), ("waypoint_", waypoint), ("heading_", way)):
             now.targets[f"{name}x"][0], now.targets[f"{name}y"][0] = value
-    memory = simulation.minds.memory[0]
+    memory = simulation.memories.memory[0]
     return wanted(simulation)[0], way, np.array([memory["station_x"], memory["station_y"]])
 
 

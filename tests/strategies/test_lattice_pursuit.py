@@ -10,7 +10,7 @@ HOME = (-4.1, 0.0)  # of the first of two agents: the middle of the western half
 
 def guards(target, place=HOME):
     simulation = staged(("lattice-pursuit", {"reach": 2.0}), [place, (4.1, 0.0)], targets=[target], top=1.0)
-    memory = simulation.minds.memory[0]
+    memory = simulation.memories.memory[0]
     first = (memory["station_x"], memory["station_y"])
     assert first in ((pytest.approx(-4.1), 0.0), (pytest.approx(4.1), 0.0))
     if first[0] > 0:  # which of the two has which station does not matter
@@ -35,6 +35,6 @@ def test_a_target_that_is_not_there_is_not_pursued():
     with simulation.edit() as now:
         now.targets["present"] = 0
     put(simulation, [(0.0, 5.0), (0.0, -5.0)])
-    memory = simulation.minds.memory[:2]
+    memory = simulation.memories.memory[:2]
     home = np.stack([memory["station_x"], memory["station_y"]], axis=1) - [(0.0, 5.0), (0.0, -5.0)]
     assert wanted(simulation) == pytest.approx(home / np.hypot(*home.T)[:, None])

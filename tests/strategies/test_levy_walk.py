@@ -26,7 +26,7 @@ def walkers(count, **params):
 def test_lengths_of_legs_follow_the_power_law_between_their_bounds(exponent):
     """Kolmogorov-Smirnov against P(l) ~ l^-mu on [1, 20] at the 1 % level."""
     count = 2000
-    legs = np.sort(walkers(count, exponent=exponent, shortest=1.0, longest=20.0).minds.memory["leg"][:count])
+    legs = np.sort(walkers(count, exponent=exponent, shortest=1.0, longest=20.0).memories.memory["leg"][:count])
     if exponent == 1.0:
         expected = np.log(legs) / np.log(20.0)
     else:
@@ -38,7 +38,7 @@ def test_lengths_of_legs_follow_the_power_law_between_their_bounds(exponent):
 
 def test_a_leg_is_straight_and_as_long_as_drawn():
     simulation = walkers(40, shortest=0.4)
-    first = np.ceil(simulation.minds.memory["leg"][:40] / 0.1 - 1e-9)  # steps of 0.1 m
+    first = np.ceil(simulation.memories.memory["leg"][:40] / 0.1 - 1e-9)  # steps of 0.1 m
     frames = simulation.advance(300, every=1)
     turned = np.abs(np.diff(frames.memory["heading"], axis=0)) > 0
     for i in range(40):

@@ -13,7 +13,7 @@ def lonely(**params):
 def test_the_best_is_where_the_agent_itself_was_last_on_target():
     simulation = staged(lonely(social=0.0), [(3, 4), (-9, -9)], targets=[(3, 4.5)])
     simulation.advance(1)
-    memory = simulation.minds.memory[0]
+    memory = simulation.memories.memory[0]
     assert (memory["best_x"], memory["best_y"], memory["best_time"]) == (3.0, 4.0, 0.0)
 
 

@@ -33,7 +33,7 @@ def test_the_next_pattern_is_turned_by_30_degrees():
 def test_the_disc_is_as_large_as_the_part():
     """The faster of two has three quarters of 20 m x 20 m; the way points of its pattern lie on the disc's rim."""
     simulation = staged("sector-search", [(0, 0), (0, 0)], top=[1.0, 3.0])
-    datum = np.array([simulation.minds.memory["datum_x"][1], simulation.minds.memory["datum_y"][1]])
+    datum = np.array([simulation.memories.memory["datum_x"][1], simulation.memories.memory["datum_y"][1]])
     assert datum == pytest.approx([2.5, 0.0])
     frames = simulation.advance(1500, every=1)
     leg = frames.memory["leg"][:, 1]

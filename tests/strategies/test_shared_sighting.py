@@ -25,14 +25,14 @@ def test_it_spreads_by_one_hop_in_a_step():
     simulation = chain()
     for number in range(1, 6):
         simulation.advance(1)
-        knows = simulation.minds.memory["sighting_time"][:6] >= 0
+        knows = simulation.memories.memory["sighting_time"][:6] >= 0
         assert knows.tolist() == [True] * (number + 1) + [False] * (5 - number)
 
 
 def test_all_know_the_place_and_when_it_was_true():
     simulation = chain()
     simulation.advance(9)
-    memory = simulation.minds.memory[:6]
+    memory = simulation.memories.memory[:6]
     assert (memory["sighting_x"] == [-5, *[-5] * 5]).all()
     np.testing.assert_allclose(memory["sighting_time"], DT * np.array([8, 8, 7, 6, 5, 4]))
 
@@ -43,7 +43,7 @@ def test_the_newest_wins_though_it_is_farther():
     tell(simulation, 1, 1.0, 1.0, 1.2)
     tell(simulation, 2, 2.0, 2.0, 1.3)
     simulation.advance(1)
-    assert simulation.minds.memory["sighting_x"][:3].tolist() == [2.0, 2.0, 2.0]
+    assert simulation.memories.memory["sighting_x"][:3].tolist() == [2.0, 2.0, 2.0]
 
 
 def test_who_is_on_target_for_the_first_time_beats_every_memory():
@@ -53,7 +53,7 @@ def test_who_is_on_target_for_the_first_time_beats_every_memory():
     tell(simulation, 1, 1.0, 1.0, 1.9)
     put(simulation, [(0, 0), (1, 0), (9, 0)])
     simulation.advance(1)
-    assert simulation.minds.memory["sighting_x"][:3].tolist() == [9.0, 9.0, 9.0]
+    assert simulation.memories.memory["sighting_x"][:3].tolist() == [9.0, 9.0, 9.0]
 
 
 def test_it_pulls_while_it_is_young():

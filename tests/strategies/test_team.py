@@ -71,7 +71,7 @@ def test_more_than_eight_in_turn_are_refused():
 
 def test_each_follows_whom_its_own_strategy_follows_and_remembers_its_own():
     mixed = after(team("encircle", "knn-pso"))
-    memory = mixed.minds.memory
+    memory = mixed.memories.memory
     assert (memory["speed"][:15] > 0).all()
     assert (memory["repulsion"][15:50] > 0).all()
     assert not memory["repulsion"][:15].any()

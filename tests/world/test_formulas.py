@@ -29,7 +29,7 @@ def test_a_turn_is_limited_first_and_then_the_change():
 def test_a_wall_makes_the_velocity_the_displacement_really_made():
     assert moved(1.0, 2.0, NO_DRIFT, 8.5, 0.5) == (2.0, 2.0)
     assert moved(8.0, 2.0, NO_DRIFT, 8.5, 0.5) == (8.5, 1.0)
-    assert moved(10.0, 0.0, NO_DRIFT, 8.5, 0.5) == (8.5, 0.0)  # being put inside is no motion
+    assert moved(10.0, 0.0, NO_DRIFT, 8.5, 0.5) == (8.5, 0.0)  # being put inside is not motion
 
 
 def test_a_drift_adds_to_the_displacement_and_not_to_the_velocity_through_the_water():

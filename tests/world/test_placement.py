@@ -38,7 +38,7 @@ class TestAgents:
 
     def test_with_the_repulsion_of_the_scenario(self):
         simulation = started({"strategy.repulsion_start": 0.7})
-        assert set(simulation.minds.memory["repulsion"][:50].tolist()) == {0.7}
+        assert set(simulation.memories.memory["repulsion"][:50].tolist()) == {0.7}
 
     @pytest.mark.parametrize(
         ("start", "low", "high"),

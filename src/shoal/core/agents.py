@@ -27,7 +27,7 @@ class Bodies(NamedTuple):
     on_target : what it believes and reports; engaged : whether it detects a present target, not a false alarm
     alive : 1.0, or 0.0 if lost or not yet joined; joins, leaves : it is present in steps [joins, leaves)
     neighbors : k of each agent; contact : share of recent steps with a leader, by which k may adapt
-    memory, told : (L, fields) what agents remember, and what of it they tell; the strategy sees them as `Minds`
+    memory, told : (L, fields) what agents remember, and what of it they tell; the strategy sees them as `Memories`
     """
 
     x: Floats
@@ -81,7 +81,7 @@ def part_of(whole: Any, kind: Any) -> Any:
     return kind(*(getattr(whole, name) for name in kind._fields))
 
 
-class Minds(NamedTuple):
+class Memories(NamedTuple):
     """Memory and what is told of it as records, in the words of the strategy: views of Swarm.memory and Swarm.told.
 
     arrived : (D, L) what was told in the last steps, a view of Radio.told

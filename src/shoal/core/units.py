@@ -81,7 +81,7 @@ class Choice:
 
 
 @dataclass(frozen=True)
-class Says:
+class Doc:
     """One sentence about an option."""
 
     sentence: str

@@ -19,7 +19,7 @@ from shoal.world.targets.dispatch import begin_target
 
 @entry_kernel
 def set_out(stage, places, lifetimes, losses):
-    """Place agents and targets, and draw who will be lost when.
+    """Place agents and targets, and draw when agents will be lost.
 
     places, lifetimes : (F,) index into PLACES and mean lifetime [s] of each fleet, 0 for ever
     losses : (C, 3) step, fleet (-1: any) and number of agents of each loss
@@ -44,7 +44,7 @@ def set_out(stage, places, lifetimes, losses):
 
 
 @entry_kernel
-def begin_run(stage, minds, params):
+def begin_run(stage, memories, params):
     """Set up every agent's memory."""
     world = part(stage, WORLD)
     swarm = part(stage, SWARM)
@@ -53,12 +53,12 @@ def begin_run(stage, minds, params):
     start_key = split(split(split(run.seed, 0), run.run), START_STEP)
     for i in range(world.agents):
         me = own(world, swarm, targets, params, 0, i)
-        contract.begin(me, minds.memory[i], params, split(start_key, i))
+        contract.begin(me, memories.memory[i], params, split(start_key, i))
     tell(swarm, 0, world.agents)
 
 
 @entry_kernel
-def rollout(stage, minds, params, first, last, every, tail):
+def rollout(stage, memories, params, first, last, every, tail):
     """Run time-steps first..last, in place; returns what is not finite at the end, 0: nothing, see come_to_rest.
 
     Frames are kept of every `every`-th step and of all from step `tail` on. Splitting a run into several calls changes
@@ -82,7 +82,7 @@ def rollout(stage, minds, params, first, last, every, tail):
     for number in range(first, last):
         batch = min(number * batches // run.steps, batches - 1)
         keeps = room > 0 and (number % every == 0 or number >= tail)
-        step(parts, minds, params, Now(number, batch, split(run_key, number), frame if keeps else -1))
+        step(parts, memories, params, Now(number, batch, split(run_key, number), frame if keeps else -1))
         frame += keeps
     return enter(phases.come_to_rest, stage, last, 0, 0, split(run_key, last))
 

@@ -35,7 +35,7 @@ def own(world, swarm, targets, params, number, i):
 
 @kernel
 def _truth(x, y, targets, params):
-    """The nearest target that is there, for those who are told; nothing for the others."""
+    """The nearest target present, for references; nothing for the others."""
     truth = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if contract.is_informed(params):
         nearest = 1e300

@@ -130,7 +130,7 @@ def new_nature(disturbances: int, lanes: int) -> Nature:
 
 
 def new_frames(count: int, agents: int, targets: int, fields: int) -> Frames:
-    """Return room for so many frames."""
+    """Return room for `count` frames."""
     return Frames(
         step=np.empty(count, np.int64),
         x=np.empty((count, agents)),

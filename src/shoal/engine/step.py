@@ -39,13 +39,13 @@ class Now(NamedTuple):
 
 
 @kernel
-def step(parts, minds, params, now):
+def step(parts, memories, params, now):
     """Advance the world by a time-step: Algorithm 2."""
     phases, world, radio = parts.phases, parts.world, parts.radio
     run(phases.sense, parts, now, 0)
     if now.frame >= 0:
         run(phases.record_frame, parts, now, now.frame)
-    told = minds.told if radio.delay == 0 else minds.arrived[(now.number + 1) % (radio.delay + 1)]
+    told = memories.told if radio.delay == 0 else memories.arrived[(now.number + 1) % (radio.delay + 1)]
     arrived = Arrived(said(radio, parts.swarm, now.number), told, (now.number - radio.delay) * world.time_step)
     together = parts.scratch.leader.size
     for first in range(0, world.agents, together):
@@ -53,7 +53,7 @@ def step(parts, minds, params, now):
         listen(parts, arrived, params, now, first)
         if now.frame >= 0:
             enter(phases.record_links, parts.stage, now.number, first, now.frame, now.key)
-        decide(parts.swarm, parts, arrived, minds, params, now, first)
+        decide(parts.swarm, parts, arrived, memories, params, now, first)
         run(phases.move, parts, now, first)
     run(phases.measure, parts, now, 0)
     run(phases.move_targets, parts, now, 0)
@@ -90,7 +90,7 @@ def listen(parts, arrived, params, now, first):
 
 
 @kernel
-def decide(swarm, parts, arrived, minds, params, now, first):
+def decide(swarm, parts, arrived, memories, params, now, first):
     """Every agent there, from `first` on, asks its strategy for the velocity it wants and updates what it tells.
 
     `swarm` is parts.swarm: what is written to must be near, see compiler/kernel.py.
@@ -119,7 +119,7 @@ def decide(swarm, parts, arrived, minds, params, now, first):
             arrived.told[j],
             scratch.sums[:, lane],
         )
-        vx, vy = contract.decide(me, heard, minds.memory[i], params, split(now.key, i))
+        vx, vy = contract.decide(me, heard, memories.memory[i], params, split(now.key, i))
         swarm.command_x[i] = vx
         swarm.command_y[i] = vy
     tell(swarm, first, last)

@@ -9,7 +9,7 @@ import numpy as np
 
 from shoal.compiler.kernel import compiles
 from shoal.compiler.placed import Placed
-from shoal.core.agents import NEVER, Minds, as_records
+from shoal.core.agents import NEVER, Memories, as_records
 from shoal.core.errors import ScenarioError, StrategyError
 from shoal.core.plugin_errors import plugin_errors
 from shoal.core.text import plain
@@ -48,7 +48,7 @@ class Simulation:
     targets : read-only array of target records, (T,)
     tally : read-only sums so far
     roster : what each agent was given: fleet, top speed, sensor, k, strategy, when it joins
-    minds : read-only records of what agents remember, in the words of their strategy
+    memories : read-only records of what agents remember, in the words of their strategy
     moment : all of the state, read-only; `edit` opens it for changes
     notes : what was assumed or dropped in reading recorded tracks or a saved state
 
@@ -72,17 +72,17 @@ class Simulation:
         self.notes = [note for track in tracks for note in track.notes]
         self._targets, self.tracks = build_targets(scenario, tracks)
         self._nature = build_nature(scenario, self._swarm.x.size)
-        minds = Minds(
+        memories = Memories(
             memory=as_records(self._swarm.memory, self.memory_fields),
             told=as_records(self._swarm.told, self.crew.told),
             arrived=as_records(self._radio.told, self.crew.told),
         )
-        plain = Minds(*(np.asarray(each) for each in minds))
-        self._minds = plain if compiles() else minds  # numba takes recarrays, too, but slowly
+        plain = Memories(*(np.asarray(each) for each in memories))
+        self._memories = plain if compiles() else memories  # numba takes recarrays, too, but slowly
         batches = min(BATCHES, scenario.steps)
         self._tally = new_tally(scenario.steps, batches, len(scenario.fleets), scenario.agents, len(scenario.targets))
         self._state = state_of(self._swarm, self._radio, self._targets, self._nature, self._tally)
-        self.swarm, self.targets, self.minds = read_only(self._swarm), read_only(self._targets), read_only(minds)
+        self.swarm, self.targets, self.memories = read_only(self._swarm), read_only(self._targets), read_only(memories)
         self.moment: State = read_only(self._state)
         self.tally = self.moment.tally
         self._scratch = new_scratch(self.world, self._swarm.x.size, self.crew.sums, self.crew.ranked)
@@ -108,7 +108,7 @@ class Simulation:
         """Set up every agent's memory, as its strategy does before the first step."""
         with plugin_errors(), self.crew.naming_errors():
             self._placed = self._in_place(self._placed)
-            self._begin(self._placed.address, self._minds, self.crew.params)
+            self._begin(self._placed.address, self._memories, self.crew.params)
 
     def advance(self, steps: int, *, every: int | None = None, tail: int | None = None) -> Trajectory | None:
         """Run a number of steps; with `every`, return the frames of every n-th step and of all from step `tail` on.
@@ -205,7 +205,7 @@ class Simulation:
         ScenarioError : the place of a target or a drift is not, which is the fault of a kind that is not ours
         """
         with plugin_errors(), self.crew.naming_errors():
-            spoiled = self._rollout(placed.address, self._minds, self.crew.params, first, last, every, tail)
+            spoiled = self._rollout(placed.address, self._memories, self.crew.params, first, last, every, tail)
         self.number = last
         if spoiled:
             raise self._spoiled(spoiled)

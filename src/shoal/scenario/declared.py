@@ -11,7 +11,7 @@ from pydantic import AfterValidator, Field, create_model, model_validator
 
 from shoal.core.declared import Declared
 from shoal.core.errors import PluginError, reason_of
-from shoal.core.units import Choice, FileName, Range, Says, Unit
+from shoal.core.units import Choice, Doc, FileName, Range, Unit
 from shoal.scenario.frozen import Frozen
 
 
@@ -73,7 +73,7 @@ _SOURCE = "hash of the package that declares it; Shoal fills it in, then insists
 
 def _field(hint: Any, default: Any) -> tuple[Any, Any]:
     """Type and field of an option, in pydantic's words."""
-    says = _mark(hint, Says)
+    says = _mark(hint, Doc)
     words = _mark(hint, Choice)
     if words:
         return Literal[words.words], _said(default if default is ... else words.words[default], says and says.sentence)

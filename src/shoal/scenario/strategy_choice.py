@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field, create_model
 from pydantic import ValidationError as PydanticError
 from pydantic_core import PydanticCustomError, core_schema
 
-from shoal.core.units import Choice, Range, Says, Unit
+from shoal.core.units import Choice, Doc, Range, Unit
 from shoal.strategies import CATALOGUE, Strategy
 from shoal.strategies.installed import installed_names, load_all_installed
 from shoal.strategies.plugins import find_strategy, load_strategies, source_of
@@ -153,7 +153,7 @@ def _model_of(name: str, key: Hashable) -> type[BaseModel]:
     hints = get_type_hints(params, include_extras=True)
     fields: dict[str, Any] = {"name": (Literal[name], name)}
     for field, default in params._field_defaults.items():
-        choice, says = _mark(hints[field], Choice), _mark(hints[field], Says)
+        choice, says = _mark(hints[field], Choice), _mark(hints[field], Doc)
         description = says.sentence if says else ""
         if choice:
             fields[field] = (Literal[choice.words], Field(default=choice.words[default], description=description))

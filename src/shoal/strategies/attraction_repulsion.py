@@ -11,23 +11,23 @@ import math
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import uniform
-from shoal.core.units import Meters, Range, Says
+from shoal.core.units import Doc, Meters, Range
 from shoal.strategies.contract import strategy
 
 
 class AttractionRepulsion(NamedTuple):
     """Parameters."""
 
-    inertia: Annotated[float, Range(), Says("omega: share of the velocity kept from one step to the next")] = 0.7
-    social: Annotated[float, Range(), Says("c: largest share of the distance to the leader wanted in one step")] = 0.5
+    inertia: Annotated[float, Range(), Doc("omega: share of the velocity kept from one step to the next")] = 0.7
+    social: Annotated[float, Range(), Doc("c: largest share of the distance to the leader wanted in one step")] = 0.5
     equilibrium: Annotated[
-        Meters, Range(open=True), Says("r_eq: distance at which two agents neither attract nor repel")
+        Meters, Range(open=True), Doc("r_eq: distance at which two agents neither attract nor repel")
     ] = 2.4
     attraction: Annotated[
-        float, Range(open=True), Says("a: share of the distance to a far neighbor wanted in one step")
+        float, Range(open=True), Doc("a: share of the distance to a far neighbor wanted in one step")
     ] = 0.002
     repulsion: Annotated[
-        float, Range(open=True), Says("b: share of the distance to a near neighbor by which it pushes in one step")
+        float, Range(open=True), Doc("b: share of the distance to a near neighbor by which it pushes in one step")
     ] = 0.5
 
 

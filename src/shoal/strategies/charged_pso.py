@@ -9,18 +9,18 @@ import math
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import uniform
-from shoal.core.units import Meters, Range, Says
+from shoal.core.units import Doc, Meters, Range
 from shoal.strategies.contract import strategy
 
 
 class ChargedPso(NamedTuple):
     """Parameters."""
 
-    inertia: Annotated[float, Range(), Says("omega: share of the velocity kept from one step to the next")] = 0.7
-    social: Annotated[float, Range(), Says("c: largest share of the distance to the leader wanted in one step")] = 0.5
-    charge: Annotated[Meters, Range(), Says("q: two charges this far apart push each other this far in a step")] = 0.63
-    core: Annotated[Meters, Range(), Says("p_core: nearer ones push no harder than at this distance")] = 0.3
-    perception: Annotated[Meters, Range(), Says("p: those farther away do not push")] = 4.0
+    inertia: Annotated[float, Range(), Doc("omega: share of the velocity kept from one step to the next")] = 0.7
+    social: Annotated[float, Range(), Doc("c: largest share of the distance to the leader wanted in one step")] = 0.5
+    charge: Annotated[Meters, Range(), Doc("q: two charges this far apart push each other this far in a step")] = 0.63
+    core: Annotated[Meters, Range(), Doc("p_core: nearer ones push no harder than at this distance")] = 0.3
+    perception: Annotated[Meters, Range(), Doc("p: those farther away do not push")] = 4.0
 
 
 def influence(me, other, params):

@@ -20,7 +20,7 @@ import math
 from typing import Annotated, NamedTuple
 
 from shoal.compiler.kernel import kernel
-from shoal.core.units import Meters, Range, Says, Seconds
+from shoal.core.units import Doc, Meters, Range, Seconds
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import own_station, toward
 
@@ -28,23 +28,23 @@ from shoal.strategies.parts import own_station, toward
 class Encircle(NamedTuple):
     """Parameters; lengths suit targets of 1 m seen in an arena of 20 m."""
 
-    spread: Annotated[float, Range(0.0, 1.0), Says("stations cover this share of the sides that agents may go to")] = (
+    spread: Annotated[float, Range(0.0, 1.0), Doc("stations cover this share of the sides that agents may go to")] = (
         0.82
     )
     chase: Annotated[
-        Meters, Range(), Says("how far from its station an agent as fast as the target goes to meet it")
+        Meters, Range(), Doc("how far from its station an agent as fast as the target goes to meet it")
     ] = 9.0
-    ring: Annotated[Meters, Range(), Says("distance of the ring from the estimate")] = 0.95
-    spacing: Annotated[Meters, Range(), Says("agents on the ring push each other when nearer than this")] = 2.0
-    push: Annotated[float, Range(), Says("how strongly, as a share of the distance to the neighbor")] = 0.3
+    ring: Annotated[Meters, Range(), Doc("distance of the ring from the estimate")] = 0.95
+    spacing: Annotated[Meters, Range(), Doc("agents on the ring push each other when nearer than this")] = 2.0
+    push: Annotated[float, Range(), Doc("how strongly, as a share of the distance to the neighbor")] = 0.3
     lead: Annotated[
-        float, Range(), Says("share of the time to get there by which the ring is ahead of the estimate")
+        float, Range(), Doc("share of the time to get there by which the ring is ahead of the estimate")
     ] = 0.1
     patience: Annotated[
-        Seconds, Range(), Says("after so long without contact agents go home and forget the estimate")
+        Seconds, Range(), Doc("after so long without contact agents go home and forget the estimate")
     ] = 1.0
     learn: Annotated[
-        float, Range(0.0, 1.0), Says("share of a correction along the path that goes into the estimated speed")
+        float, Range(0.0, 1.0), Doc("share of a correction along the path that goes into the estimated speed")
     ] = 0.05
 
 

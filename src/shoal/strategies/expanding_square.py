@@ -9,7 +9,7 @@ import math
 from typing import Annotated, NamedTuple
 
 from shoal.compiler.kernel import kernel
-from shoal.core.units import Range, Says
+from shoal.core.units import Doc, Range
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import inside, middle_of_part, size_of_part, toward, waypoint_reached
 
@@ -17,7 +17,7 @@ from shoal.strategies.parts import inside, middle_of_part, size_of_part, toward,
 class ExpandingSquare(NamedTuple):
     """Parameters."""
 
-    spacing: Annotated[float, Range(open=True), Says("track spacing d, in diameters of what the sensor sees")] = 1.0
+    spacing: Annotated[float, Range(open=True), Doc("track spacing d, in diameters of what the sensor sees")] = 1.0
 
 
 def begin(me, memory, params, draw):

@@ -7,15 +7,15 @@ particle swarm optimizer", ICEC 1998; without memory, since the optimum moves.
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import uniform
-from shoal.core.units import Range, Says
+from shoal.core.units import Doc, Range
 from shoal.strategies.contract import strategy
 
 
 class GlobalPso(NamedTuple):
     """Parameters."""
 
-    inertia: Annotated[float, Range(), Says("omega: share of the velocity kept from one step to the next")] = 1.0
-    social: Annotated[float, Range(), Says("c: largest share of the distance to the best wanted in one step")] = 0.5
+    inertia: Annotated[float, Range(), Doc("omega: share of the velocity kept from one step to the next")] = 1.0
+    social: Annotated[float, Range(), Doc("c: largest share of the distance to the best wanted in one step")] = 0.5
 
 
 def decide(me, heard, memory, params, draw):

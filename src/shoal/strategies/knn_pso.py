@@ -7,7 +7,7 @@ Eqs. 2-4, Algorithms 1 and 2. The predecessor (Kwa, Leong Kit, Bouffanais, AAMAS
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import uniform
-from shoal.core.units import Choice, Meters, Range, Says
+from shoal.core.units import Choice, Doc, Meters, Range
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import adapted, inverse_power, power
 
@@ -15,17 +15,17 @@ from shoal.strategies.parts import adapted, inverse_power, power
 class KnnPso(NamedTuple):
     """Parameters; the paper adds pure numbers per step, so social and repulsion_step act once per time-step."""
 
-    inertia: Annotated[float, Range(), Says("omega: share of the velocity kept from one step to the next")] = 1.0
-    social: Annotated[float, Range(), Says("c: largest share of the distance to the leader wanted in one step")] = 0.5
-    social_draws: Annotated[int, Choice(("scalar", "per-axis")), Says("r: one draw for both axes, or one each")] = 0
-    follow: Annotated[int, Choice(("nearest", "lowest-index")), Says("which neighbor on target is followed")] = 0
-    repulsion_start: Annotated[Meters, Range(), Says("a_R at the start")] = 0.5013256549262001
-    repulsion_min: Annotated[Meters, Range(), Says("a_R shrinks while above this and somebody is on target")] = 0.375
-    repulsion_max: Annotated[Meters, Range(), Says("a_R grows while below this and nobody is on target")] = 1.5
-    delta: Annotated[Meters, Range(), Says("growth of a_R in one step with nobody on target")] = 0.01
-    shrink: Annotated[float, Range(), Says("deltas that a_R shrinks by in one step with somebody on target")] = 1.0
-    repulsion_exponent: Annotated[float, Range(0.0, 100.0), Says("d: steepness of the repulsion")] = 6.0
-    repulsion_step: Annotated[Meters, Range(), Says("displacement by a neighbor at distance a_R in one step")] = 1.0
+    inertia: Annotated[float, Range(), Doc("omega: share of the velocity kept from one step to the next")] = 1.0
+    social: Annotated[float, Range(), Doc("c: largest share of the distance to the leader wanted in one step")] = 0.5
+    social_draws: Annotated[int, Choice(("scalar", "per-axis")), Doc("r: one draw for both axes, or one each")] = 0
+    follow: Annotated[int, Choice(("nearest", "lowest-index")), Doc("which neighbor on target is followed")] = 0
+    repulsion_start: Annotated[Meters, Range(), Doc("a_R at the start")] = 0.5013256549262001
+    repulsion_min: Annotated[Meters, Range(), Doc("a_R shrinks while above this and somebody is on target")] = 0.375
+    repulsion_max: Annotated[Meters, Range(), Doc("a_R grows while below this and nobody is on target")] = 1.5
+    delta: Annotated[Meters, Range(), Doc("growth of a_R in one step with nobody on target")] = 0.01
+    shrink: Annotated[float, Range(), Doc("deltas that a_R shrinks by in one step with somebody on target")] = 1.0
+    repulsion_exponent: Annotated[float, Range(0.0, 100.0), Doc("d: steepness of the repulsion")] = 6.0
+    repulsion_step: Annotated[Meters, Range(), Doc("displacement by a neighbor at distance a_R in one step")] = 1.0
 
 
 def begin(me, memory, params, draw):

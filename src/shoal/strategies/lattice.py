@@ -6,7 +6,7 @@ Martinez, Karatas, Bullo, "Coverage control for mobile sensing networks", IEEE T
 
 from typing import Annotated, NamedTuple
 
-from shoal.core.units import Range, Says
+from shoal.core.units import Doc, Range
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import own_station, toward
 
@@ -15,7 +15,7 @@ class Lattice(NamedTuple):
     """Parameters."""
 
     spread: Annotated[
-        float, Range(0.0, 1.0), Says("the lattice covers this share of the sides that agents may go to")
+        float, Range(0.0, 1.0), Doc("the lattice covers this share of the sides that agents may go to")
     ] = 0.82
 
 

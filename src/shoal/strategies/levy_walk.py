@@ -8,7 +8,7 @@ from typing import Annotated, NamedTuple
 
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import uniform
-from shoal.core.units import Meters, Range, Says
+from shoal.core.units import Doc, Meters, Range
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import turned_from_walls
 
@@ -16,9 +16,9 @@ from shoal.strategies.parts import turned_from_walls
 class LevyWalk(NamedTuple):
     """Parameters."""
 
-    exponent: Annotated[float, Range(1.0, 5.0), Says("mu: P(l) ~ l^-mu; 1 is nearly straight, 3 nearly Brownian")] = 2.0
-    shortest: Annotated[Meters, Range(open=True), Says("shortest leg")] = 1.0
-    longest: Annotated[Meters, Range(open=True), Says("longest leg")] = 20.0
+    exponent: Annotated[float, Range(1.0, 5.0), Doc("mu: P(l) ~ l^-mu; 1 is nearly straight, 3 nearly Brownian")] = 2.0
+    shortest: Annotated[Meters, Range(open=True), Doc("shortest leg")] = 1.0
+    longest: Annotated[Meters, Range(open=True), Doc("longest leg")] = 20.0
 
 
 def begin(me, memory, params, draw):

@@ -8,7 +8,7 @@ particle swarm optimization to dynamic environments", ICAI 2000 (outdated memory
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import uniform
-from shoal.core.units import Meters, Range, Says, Seconds
+from shoal.core.units import Doc, Meters, Range, Seconds
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import adapted, inverse_power, power
 
@@ -16,18 +16,18 @@ from shoal.strategies.parts import adapted, inverse_power, power
 class MemoryPso(NamedTuple):
     """Parameters; those of knn-pso, and the memory's."""
 
-    inertia: Annotated[float, Range(), Says("omega: share of the velocity kept from one step to the next")] = 1.0
+    inertia: Annotated[float, Range(), Doc("omega: share of the velocity kept from one step to the next")] = 1.0
     cognitive: Annotated[
-        float, Range(), Says("c1: largest share of the distance to the own best wanted in one step")
+        float, Range(), Doc("c1: largest share of the distance to the own best wanted in one step")
     ] = 0.5
-    social: Annotated[float, Range(), Says("c2: largest share of the distance to the leader wanted in one step")] = 0.5
-    max_age: Annotated[Seconds, Range(), Says("the own best is forgotten when this old")] = 5.0
-    repulsion_start: Annotated[Meters, Range(), Says("a_R at the start")] = 0.5013256549262001
-    repulsion_min: Annotated[Meters, Range(), Says("a_R shrinks while above this and somebody is on target")] = 0.375
-    repulsion_max: Annotated[Meters, Range(), Says("a_R grows while below this and nobody is on target")] = 1.5
-    delta: Annotated[Meters, Range(), Says("change of a_R in one step")] = 0.01
-    repulsion_exponent: Annotated[float, Range(0.0, 100.0), Says("d: steepness of the repulsion")] = 6.0
-    repulsion_step: Annotated[Meters, Range(), Says("displacement by a neighbor at distance a_R in one step")] = 1.0
+    social: Annotated[float, Range(), Doc("c2: largest share of the distance to the leader wanted in one step")] = 0.5
+    max_age: Annotated[Seconds, Range(), Doc("the own best is forgotten when this old")] = 5.0
+    repulsion_start: Annotated[Meters, Range(), Doc("a_R at the start")] = 0.5013256549262001
+    repulsion_min: Annotated[Meters, Range(), Doc("a_R shrinks while above this and somebody is on target")] = 0.375
+    repulsion_max: Annotated[Meters, Range(), Doc("a_R grows while below this and nobody is on target")] = 1.5
+    delta: Annotated[Meters, Range(), Doc("change of a_R in one step")] = 0.01
+    repulsion_exponent: Annotated[float, Range(0.0, 100.0), Doc("d: steepness of the repulsion")] = 6.0
+    repulsion_step: Annotated[Meters, Range(), Doc("displacement by a neighbor at distance a_R in one step")] = 1.0
 
 
 def begin(me, memory, params, draw):

@@ -9,7 +9,7 @@ before the edges of the row. By the book: an agent that sees a target carries on
 from typing import Annotated, NamedTuple
 
 from shoal.compiler.kernel import kernel
-from shoal.core.units import Range, Says
+from shoal.core.units import Doc, Range
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import on_snake, rows_of, toward, waypoint_reached
 
@@ -17,7 +17,7 @@ from shoal.strategies.parts import on_snake, rows_of, toward, waypoint_reached
 class ParallelTrack(NamedTuple):
     """Parameters."""
 
-    spacing: Annotated[float, Range(open=True), Says("largest track spacing, in diameters of what the sensor sees")] = (
+    spacing: Annotated[float, Range(open=True), Doc("largest track spacing, in diameters of what the sensor sees")] = (
         1.0
     )
 

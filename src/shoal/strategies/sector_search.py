@@ -10,7 +10,7 @@ import math
 from typing import Annotated, NamedTuple
 
 from shoal.compiler.kernel import kernel
-from shoal.core.units import Range, Says
+from shoal.core.units import Doc, Range
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import inside, middle_of_part, size_of_part, toward, waypoint_reached
 
@@ -19,7 +19,7 @@ class SectorSearch(NamedTuple):
     """Parameters."""
 
     size: Annotated[
-        float, Range(open=True), Says("radius, in that of a disc as large as the agent's part of the area")
+        float, Range(open=True), Doc("radius, in that of a disc as large as the agent's part of the area")
     ] = 1.0
 
 

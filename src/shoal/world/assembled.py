@@ -84,7 +84,7 @@ def refuse_wrong_fields(where: str, kind: Any, common: Iterable[str], shared: It
 
     Raises
     ------
-    PluginError : a field has a name that all have, or is declared twice; one of the state is no number
+    PluginError : a field has a name that all have, or is declared twice; one of the state is not a number
     """
     try:
         numbers = numbers_of(kind.options)

@@ -46,7 +46,7 @@ def moved(place, command, drift, clamp, time_step):
 
     The displacement is the sum of what the agent commands and of what nature adds, `drift` [m]; its velocity stays the
     one through the water. At the wall it becomes the displacement really made. An agent that starts outside the wall is
-    put inside, which is no motion of its own: it counts from the wall on.
+    put inside, which is not its own motion: it counts from the wall on.
     """
     free = place + (command * time_step + drift)
     there = min(max(free, -clamp), clamp)

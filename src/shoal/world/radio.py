@@ -46,7 +46,7 @@ Radio = both("Radio", Air, Network, __name__)
 
 
 class Said(NamedTuple):
-    """The reports that arrive in a step, (L,), but for what is told of memories."""
+    """The reports that arrive in a step, (L,), except what is told of memories."""
 
     x: Floats
     y: Floats
@@ -121,9 +121,9 @@ def adapted(contact, on_contact, weight):
 
 @kernel
 def limit_links(links, swarm, radio, first, agents, number):
-    """Unlink who is out of range, not there, or has said nothing yet; links.wanted becomes k, or all that are left.
+    """Unlink speakers out of range, absent, or yet unheard; links.wanted becomes k, or all that are left.
 
-    The range is to the place that a report says: where the speaker was when it spoke. Who is not there hears nobody.
+    The range is to the place that a report says: where the speaker was when it spoke. Absent agents hear no one.
     """
     square, wanted = links.square, links.wanted
     lanes = wanted.size

@@ -1,4 +1,4 @@
-"""Who detects a target: the paper's disc (Eq. 1), with chances to miss it and to see what is not there."""
+"""Which agents detect a target: the paper's disc (Eq. 1), with chances to miss it and of false alarms."""
 
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import split, uniform
@@ -21,7 +21,7 @@ def notices(key, target, detection):
 
 @kernel
 def imagines(key, false_alarm):
-    """Whether a sensor reports a target that is not there, by its chance; `key` is the agent's of the step."""
+    """Whether a sensor reports an absent target, by its chance; `key` is the agent's of the step."""
     return uniform(key, _FALSE_ALARM) < false_alarm
 
 

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import normal, split
-from shoal.core.units import MetersPerSecond, Range, Says, Seconds
+from shoal.core.units import Doc, MetersPerSecond, Range, Seconds
 from shoal.world.disturbances.contract import Disturbance
 
 
@@ -13,10 +13,10 @@ from shoal.world.disturbances.contract import Disturbance
 class Current:
     """A uniform current carries agents and targets, perhaps in gusts."""
 
-    east: Annotated[MetersPerSecond, Says("how fast it flows to the east [m/s]")] = 0.0
-    north: Annotated[MetersPerSecond, Says("and to the north [m/s]")] = 0.0
-    gust: Annotated[MetersPerSecond, Range(), Says("standard deviation of both in gusts [m/s]")] = 0.0
-    gust_time: Annotated[Seconds, Range(open=True), Says("how long a gust lasts, until the next [s]")] = 10.0
+    east: Annotated[MetersPerSecond, Doc("how fast it flows to the east [m/s]")] = 0.0
+    north: Annotated[MetersPerSecond, Doc("and to the north [m/s]")] = 0.0
+    gust: Annotated[MetersPerSecond, Range(), Doc("standard deviation of both in gusts [m/s]")] = 0.0
+    gust_time: Annotated[Seconds, Range(open=True), Doc("how long a gust lasts, until the next [s]")] = 10.0
 
 
 @kernel

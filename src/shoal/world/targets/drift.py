@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from shoal.compiler.kernel import kernel
-from shoal.core.units import MetersPerSecond, Range, Says, Seconds
+from shoal.core.units import Doc, MetersPerSecond, Range, Seconds
 from shoal.world.targets.contract import Target
 from shoal.world.targets.moves import go, wander
 
@@ -16,11 +16,11 @@ from shoal.world.targets.moves import go, wander
 class Drift:
     """Drifts with a uniform current, its own speed on top in a direction that wanders; re-enters at the other side."""
 
-    speed: Annotated[MetersPerSecond, Range(), Says("own speed [m/s]")] = 0.0
-    current_x: Annotated[MetersPerSecond, Says("eastward current [m/s]")] = 0.0
-    current_y: Annotated[MetersPerSecond, Says("northward current [m/s]")] = 0.0
+    speed: Annotated[MetersPerSecond, Range(), Doc("own speed [m/s]")] = 0.0
+    current_x: Annotated[MetersPerSecond, Doc("eastward current [m/s]")] = 0.0
+    current_y: Annotated[MetersPerSecond, Doc("northward current [m/s]")] = 0.0
     persistence: Annotated[
-        Seconds, Range(open=True), Says("of its own motion: after this time the mean cosine of the turn is 1/e [s]")
+        Seconds, Range(open=True), Doc("of its own motion: after this time the mean cosine of the turn is 1/e [s]")
     ] = 10.0
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from shoal.compiler.kernel import kernel
-from shoal.core.units import Degrees, Meters, Range, Says, Seconds
+from shoal.core.units import Degrees, Doc, Meters, Range, Seconds
 from shoal.world.targets.contract import Target
 from shoal.world.targets.moves import advance_straight, heading_of, turn, wander
 
@@ -20,11 +20,11 @@ from shoal.world.targets.moves import advance_straight, heading_of, turn, wander
 class Evasive:
     """Flees from the buoys that it sees and from walls; otherwise wanders."""
 
-    sight: Annotated[Meters, Range(), Says("it flees from buoys nearer than this [m]")]
-    wall_sight: Annotated[Meters, Range(open=True), Says("it turns from edges nearer than this [m]")]
-    max_turn: Annotated[Degrees, Range(0.0, 180.0, open=True), Says("largest turn in a step [deg]")] = 20.0
+    sight: Annotated[Meters, Range(), Doc("it flees from buoys nearer than this [m]")]
+    wall_sight: Annotated[Meters, Range(open=True), Doc("it turns from edges nearer than this [m]")]
+    max_turn: Annotated[Degrees, Range(0.0, 180.0, open=True), Doc("largest turn in a step [deg]")] = 20.0
     persistence: Annotated[
-        Seconds, Range(open=True), Says("of its wandering: after this time the mean cosine of the turn is 1/e [s]")
+        Seconds, Range(open=True), Doc("of its wandering: after this time the mean cosine of the turn is 1/e [s]")
     ] = 10.0
 
 

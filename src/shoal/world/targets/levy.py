@@ -9,7 +9,7 @@ from typing import Annotated
 
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import uniform
-from shoal.core.units import Meters, Range, Says
+from shoal.core.units import Doc, Meters, Range
 from shoal.world.targets.contract import Target
 from shoal.world.targets.moves import advance_straight, any_heading
 
@@ -18,9 +18,9 @@ from shoal.world.targets.moves import advance_straight, any_heading
 class Levy:
     """A Levy walk: legs of power-law length in random directions, reflected at the edge."""
 
-    exponent: Annotated[float, Range(1.0, 5.0), Says("mu: P(l) ~ l^-mu")] = 2.0
-    shortest: Annotated[Meters, Range(open=True), Says("shortest leg [m]")]
-    longest: Annotated[Meters, Range(open=True), Says("longest leg [m]")]
+    exponent: Annotated[float, Range(1.0, 5.0), Doc("mu: P(l) ~ l^-mu")] = 2.0
+    shortest: Annotated[Meters, Range(open=True), Doc("shortest leg [m]")]
+    longest: Annotated[Meters, Range(open=True), Doc("longest leg [m]")]
 
 
 def in_order(options: Levy) -> None:

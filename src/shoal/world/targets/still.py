@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from shoal.compiler.kernel import kernel
-from shoal.core.units import Meters, Says
+from shoal.core.units import Doc, Meters
 from shoal.world.targets.contract import Target
 
 
@@ -12,8 +12,8 @@ from shoal.world.targets.contract import Target
 class Still:
     """A target that stays where it is."""
 
-    x: Annotated[Meters, Says("east of the center [m]")] = 0.0
-    y: Annotated[Meters, Says("north of the center [m]")] = 0.0
+    x: Annotated[Meters, Doc("east of the center [m]")] = 0.0
+    y: Annotated[Meters, Doc("north of the center [m]")] = 0.0
 
 
 @kernel

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from shoal.compiler.kernel import kernel
-from shoal.core.units import FileName, Meters, MetersPerSecond, Range, Says, Seconds
+from shoal.core.units import Doc, FileName, Meters, MetersPerSecond, Range, Seconds
 from shoal.world.targets.contract import Target
 
 
@@ -15,19 +15,19 @@ class Track:
     file: Annotated[
         str,
         FileName(),
-        Says("CSV, NMEA, GPX, KML, GeoJSON or CF NetCDF file; relative to the scenario's folder"),
+        Doc("CSV, NMEA, GPX, KML, GeoJSON or CF NetCDF file; relative to the scenario's folder"),
     ]
-    id: Annotated[str | None, Says('which track of the file, as "COLUMN=VALUE"; "all" joins all')] = None
-    radius: Annotated[Meters, Range(), Says("rho: size of the target [m]")]
+    id: Annotated[str | None, Doc('which track of the file, as "COLUMN=VALUE"; "all" joins all')] = None
+    radius: Annotated[Meters, Range(), Doc("rho: size of the target [m]")]
     max_gap: Annotated[
         Annotated[Seconds, Range(open=True)] | None,
-        Says("in a longer silence the target is absent [s]; default from the data"),
+        Doc("in a longer silence the target is absent [s]; default from the data"),
     ] = None
     max_speed: Annotated[
-        MetersPerSecond, Range(open=True), Says("a faster jump between two fixes is a GPS error [m/s]")
+        MetersPerSecond, Range(open=True), Doc("a faster jump between two fixes is a GPS error [m/s]")
     ] = 40.0
-    day_first: Annotated[bool | None, Says("dates such as 10/03/2024 are in March; default from the data")] = None
-    digest: Annotated[str | None, Says("hash of the fixes used; Shoal fills it in, then insists on it")] = None
+    day_first: Annotated[bool | None, Doc("dates such as 10/03/2024 are in March; default from the data")] = None
+    digest: Annotated[str | None, Doc("hash of the fixes used; Shoal fills it in, then insists on it")] = None
 
 
 @kernel
@@ -44,7 +44,7 @@ def advance(target, around, draw):
 
 @kernel
 def follow_track(target, tracks, time):
-    """Interpolate between the two fixes around `time`; outside the track and in long gaps the target is not there."""
+    """Interpolate between the two fixes around `time`; outside the track and in long gaps the target is absent."""
     first = target.first_fix
     last = first + target.fixes - 1
     target.present = 0

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from shoal.compiler.kernel import kernel
-from shoal.core.units import Range, Says, Seconds
+from shoal.core.units import Doc, Range, Seconds
 from shoal.world.targets.contract import Target
 from shoal.world.targets.moves import advance_straight, wander
 
@@ -17,9 +17,9 @@ from shoal.world.targets.moves import advance_straight, wander
 class Walk:
     """A persistent random walk, reflected at the edge."""
 
-    persistence: Annotated[
-        Seconds, Range(open=True), Says("after this time the mean cosine of the turn is 1/e [s]")
-    ] = 10.0
+    persistence: Annotated[Seconds, Range(open=True), Doc("after this time the mean cosine of the turn is 1/e [s]")] = (
+        10.0
+    )
 
 
 @kernel

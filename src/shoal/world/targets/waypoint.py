@@ -6,7 +6,7 @@ from typing import Annotated
 
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import split, uniform
-from shoal.core.units import Degrees, Meters, Range, Says
+from shoal.core.units import Degrees, Doc, Meters, Range
 from shoal.world.targets.contract import Target
 from shoal.world.targets.moves import go
 
@@ -15,9 +15,9 @@ from shoal.world.targets.moves import go
 class Waypoint:
     """The paper's target: constant speed toward uniform random waypoints, turning at most so far per step."""
 
-    max_turn: Annotated[Degrees, Range(0.0, 180.0, open=True), Says("largest turn in a step [deg]")] = 20.0
-    waypoint_reach: Annotated[Meters, Range(open=True), Says("a new waypoint is taken when closer than this [m]")]
-    waypoint_patience: Annotated[int, Range(open=True), Says("or after this many steps on the same one")] = 200
+    max_turn: Annotated[Degrees, Range(0.0, 180.0, open=True), Doc("largest turn in a step [deg]")] = 20.0
+    waypoint_reach: Annotated[Meters, Range(open=True), Doc("a new waypoint is taken when closer than this [m]")]
+    waypoint_patience: Annotated[int, Range(open=True), Doc("or after this many steps on the same one")] = 200
 
 
 @kernel
