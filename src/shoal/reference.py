@@ -1,9 +1,8 @@
 """The paper in slow, plain NumPy: Algorithms 1 and 2 and Eqs. 1-8, to read, and to referee the fast engine.
 
-Kwa, Tokic, Yue, Bouffanais, "Heterogeneous Swarms for Maritime Dynamic Target Search and Tracking", OCEANS 2020, in its
-words, symbols and order. Lengths are arena units (1 m), times are steps (0.1 s), so 1 m/s is 0.1. Where the paper is
-silent, docs/paper-notes.md says what is done and why. Nothing here is shared with the engine (engine/step.py), which
-the tests hold against this file step by step; its options and the target's walk are in tests/oracle.py.
+Kwa, Tokic, Yue, Bouffanais, "Heterogeneous Swarms for Maritime Dynamic Target Search and Tracking", OCEANS 2020.
+Lengths are arena units (1 m), times steps (0.1 s): 1 m/s is 0.1. Its gaps: docs/paper-notes.md. Nothing is shared with
+engine/step.py, which the tests hold against this file; its options are in tests/oracle.py.
 """
 
 from dataclasses import dataclass
@@ -12,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-Array = Any  # (N,) or (N, 2), a row for each agent; or for the agents i that decide together
+Array = Any  # (N,) or (N, 2), a row for each agent; or for i, the numbers of the agents that decide together: all
 length: Any = partial(np.linalg.norm, axis=-1)  # of vectors
 
 
@@ -25,7 +24,7 @@ class Swarm(NamedTuple):
 
 
 class Seen(NamedTuple):
-    """What a step shows: f_i = -1 (N,), N_i (N, k), whose position Nbest is (N,), |u_i| (N,), phi_i (N,)."""
+    """What a step shows: whether f_i is -1 (N,), N_i (N, k), whose position Nbest is (N,), |u_i|, phi_i (N,)."""
 
     on_target: Array
     neighbors: Array
@@ -60,9 +59,10 @@ class Paper:
             near[i] = self.neighbors(x, i)
             best[i] = self.neighborhood_best(f, near[i], i)
             n_best = x[np.where(best[i] < 0, i, best[i])]
-            a[i] = self.algorithm_1(a[i], f[i] | f[near[i]].any(axis=1))
             v_pso = self.omega * v[i] + self.c * r[i].reshape(len(i), -1) * (n_best - x[i])  # Eq. 2
-            limited[i] = self.limited(v_pso + self.repulsion(x[i], x[near[i]], a[i]), self.max_speed[i])
+            a[i] = self.algorithm_1(a[i], f[i] | f[near[i]].any(axis=1))
+            v_rep = self.repulsion(x[i], x[near[i]], a[i])
+            limited[i] = self.limited(v_pso + v_rep, self.max_speed[i])
             x[i], v[i] = self.moved(x[i], limited[i])
         u = length(swarm.v - swarm.v.mean(axis=0))  # Eq. 5
         return Swarm(x, v, a), Seen(f, near, best, u, self.phi(x, limited, v, target))

@@ -1,7 +1,7 @@
 """One time-step: sense, link, listen, decide, move, measure. Algorithm 2 of the paper; shoal/reference.py is to read.
 
 What knows no strategy is a phase, called through its address (engine/phases.py); listen and decide are compiled for
-each strategy.
+each strategy: the paper's, with Algorithm 1, is strategies/knn_pso.py.
 """
 
 from typing import Any, NamedTuple
@@ -42,20 +42,20 @@ class Now(NamedTuple):
 def step(parts, memories, params, now):
     """Advance the world by a time-step: Algorithm 2."""
     phases, world, radio = parts.phases, parts.world, parts.radio
-    run(phases.sense, parts, now, 0)
+    run(phases.sense, parts, now, 0)  # f_i of all agents (Eq. 1), and Eq. 5 of the velocities that they have
     if now.frame >= 0:
         run(phases.record_frame, parts, now, now.frame)
     told = memories.told if radio.delay == 0 else memories.arrived[(now.number + 1) % (radio.delay + 1)]
     arrived = Arrived(said(radio, parts.swarm, now.number), told, (now.number - radio.delay) * world.time_step)
     together = parts.scratch.leader.size
-    for first in range(0, world.agents, together):
-        run(phases.link, parts, now, first)
-        listen(parts, arrived, params, now, first)
+    for first in range(0, world.agents, together):  # in one go; one after the other in the sequential order
+        run(phases.link, parts, now, first)  # N_i: the k nearest others
+        listen(parts, arrived, params, now, first)  # whose position Nbest is, and the sum over N_i of Eq. 4
         if now.frame >= 0:
             enter(phases.record_links, parts.stage, now.number, first, now.frame, now.key)
-        decide(parts.swarm, parts, arrived, memories, params, now, first)
-        run(phases.move, parts, now, first)
-    run(phases.measure, parts, now, 0)
+        decide(parts.swarm, parts, arrived, memories, params, now, first)  # v_pso (Eq. 2) + v_rep: the strategy's
+        run(phases.move, parts, now, first)  # limited to the top speed, then Eq. 3
+    run(phases.measure, parts, now, 0)  # Eq. 8
     run(phases.move_targets, parts, now, 0)
 
 

@@ -42,6 +42,11 @@ def tally_velocity_fluctuation(tally, step, world, swarm, targets, scratch):
         tally.fluctuation[step.batch, fleet] += total
 
 
+def xi(tally: Any, facts: Facts) -> float:
+    """Velocity fluctuation of the swarm. Kwa et al., Heterogeneous Swarms, Eq. 7."""
+    return share(tally.fluctuation, tally.steps) / mean_agents(tally) / mean_max_speed(tally, facts)
+
+
 def fleet_fluctuation(tally: Any, facts: Facts) -> Floats:
     """xi_raw of each fleet [m/s], (F,): fluctuation around the mean velocity of the whole swarm."""
     result: Floats = tally.fluctuation.sum(axis=0) / or_nan(tally.steps.sum() * fleet_agents(tally))
@@ -60,7 +65,7 @@ MEASUREMENT = Measurement(
             "xi",
             "1",
             "velocity fluctuation: mean of |v_i - mean v| over steps and agents / mean top speed (Eqs. 5-7)",
-            lambda t, f: share(t.fluctuation, t.steps) / mean_agents(t) / mean_max_speed(t, f),
+            xi,
             label="velocity fluctuation Xi",
         ),
         Metric(
