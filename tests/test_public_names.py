@@ -92,7 +92,7 @@ def public_functions():
                 yield from ((f"{name}.{each}", method) for each, method in methods.items() if callable(method))
 
 
-@pytest.mark.parametrize(("name", "function"), sorted(public_functions()), ids=lambda value: str(value)[:40])
+@pytest.mark.parametrize(("name", "function"), [pytest.param(*each, id=each[0]) for each in sorted(public_functions())])
 def test_a_public_function_names_each_of_its_arguments_in_its_docstring(name, function):
     arguments = [each for each in inspect.signature(function).parameters if each != "self"]
     assert [each for each in arguments if not re.search(rf"\b{each}\b", inspect.getdoc(function) or "")] == []
