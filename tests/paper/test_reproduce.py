@@ -41,12 +41,10 @@ def tiny(paper, *, quick=False):
             Group("refit/main", Design("oceans2020-refit", main, 2), STEPS),
             Group("refit/placement", Design("oceans2020-refit", start, 2), STEPS),
             Group("refit/side/as-it-is", Design("oceans2020-refit", curves, 2), STEPS, {"side": "as it is"}),
-            Group("sensitivity/baseline", Design("oceans2020", curves, 2), STEPS, {"variant": "baseline"}),
-            Group(
-                "sensitivity/omega",
-                Design("oceans2020", curves, 2),
-                {**STEPS, "strategy.inertia": 0.5},
-                {"variant": "omega"},
+            *(
+                Group(f"{kind}/{name}", Design("oceans2020", points, 2), {**STEPS, **changes}, {"variant": name})
+                for name, changes in (("baseline", {}), ("omega", {"strategy.inertia": 0.5}))
+                for kind, points in (("sensitivity", curves), ("sensitivity-placement", start))
             ),
         ),
     )
@@ -98,7 +96,7 @@ def test_the_same_numbers_come_again_and_nothing_runs_twice(tmp_path):
 def test_progress_counts_the_runs_of_all_sweeps_together(tmp_path):
     seen = []
     run_plan(tiny("oceans2020"), tmp_path, report=lambda now: seen.append((now.before + now.done, now.total)))
-    assert seen == [(number, 200) for number in range(1, 201)]
+    assert seen == [(number, 208) for number in range(1, 209)]
 
 
 def test_interrupted_it_keeps_what_is_done_and_goes_on_from_there(tmp_path):
@@ -111,7 +109,7 @@ def test_interrupted_it_keeps_what_is_done_and_goes_on_from_there(tmp_path):
     seen = []
     reproduce("oceans2020", tmp_path, report=lambda now: seen.append((now.before, now.done, now.total)))
     assert seen[0][0] + seen[0][1] >= 70
-    assert sum(seen[-1][:2]) == seen[-1][2] == 200
+    assert sum(seen[-1][:2]) == seen[-1][2] == 208
 
 
 def test_failed_runs_are_tried_again(tmp_path, monkeypatch):

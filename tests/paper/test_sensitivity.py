@@ -3,7 +3,9 @@
 import pytest
 
 from paper_rows import KS, hill, made
-from shoal.paper.sensitivity import conclusion_table, peak_table
+from shoal.paper.clusters import Episode
+from shoal.paper.sensitivity import Extra, conclusion_table, peak_table
+from shoal.paper.statements import at_full_length
 
 METRICS = ("time_on_target", "xi", "xi_raw", "stationary")
 POINTS = [(fast, k, 3.0) for fast in (15, 0) for k in KS]
@@ -43,6 +45,27 @@ def test_a_conclusion_that_turns_is_named():
     assert same["changed"] == ""
     assert (late["C3"], late["C4"], late["C6"]) == ("does not hold", "holds", "does not hold")
     assert set(late["changed"].split()) >= {"C3", "C6"}
+
+
+def test_a_variant_with_other_starts_and_clusters_is_judged_on_all_claims():
+    rows = variant("baseline", 18)
+    placement = [
+        {**row, "fleets.BoB-1.start": start, "time_on_target": row["time_on_target"] + shift + 1e-4 * row["run"]}
+        for row in rows
+        if (row["fast"], row["neighbors"]) == (15, 20)
+        for start, shift in (("corner", 0.0), ("center", 0.1))
+    ]
+    episodes = [Episode(0, 0, 50, True)] * 5
+    (row,) = conclusion_table(rows, {"baseline": Extra(placement, episodes, 100_000)})
+    assert list(row) == ["variant", *(f"C{n}" for n in range(1, 14)), "changed", "time_on_target"]
+    assert (row["C11"], row["C12"]) == ("holds partly", "holds")
+
+
+def test_short_runs_may_vary_more():
+    rows = at_full_length(variant("baseline", 18), 9 * 100_000)  # three times the deviation
+    long, short = (conclusion_table(rows, {"baseline": Extra([], [], steps)})[0] for steps in (100_000, 10_000))
+    assert long["C13"] in ("does not hold", "holds partly")
+    assert short["C13"] == "holds"
 
 
 def test_what_is_undecided_has_not_turned():

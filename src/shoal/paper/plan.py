@@ -15,6 +15,7 @@ SPEEDS = (3.0, 5.0)  # of the target [m/s]
 AGENTS, MIXED = 50, 15  # buoys, and fast ones among them in the paper's mixed swarm
 SHARE_NEIGHBORS = (10, 20, 30, 40)
 START_PLACES = ("corner", "center")
+SENSITIVITY, SENSITIVITY_PLACEMENT = "sensitivity", "sensitivity-placement"  # folders of the variants' groups
 
 # Every k where the curves peak: between points a curve can bend unseen, and its peak's interval grows (peaks.py).
 _NEIGHBORS = (*range(2, 14, 2), *range(14, 31), 32, 34, 36, 38, 40, 42, 44, 46, 48, 49)
@@ -84,12 +85,11 @@ def _oceans2020(quick: bool, steps: int, seeds: int) -> list[Group]:
         *_curves(_NEIGHBORS_QUICK if quick else _NEIGHBORS, SPEEDS),
         *grid({"target_speed": SPEEDS, "fast": [*fast, MIXED], "neighbors": SHARE_NEIGHBORS}),
     ]
-    placement = grid({"target_speed": SPEEDS, "fast": [MIXED], "neighbors": [20], "fleets.BoB-1.start": START_PLACES})
     groups = []
     for preset, prefix in ((PRINTED, ""), (REFIT, "refit/")):
         groups += [
             Group(f"{prefix}main", Design(preset, distinct(main), seeds), {"steps": steps}),
-            Group(f"{prefix}placement", Design(preset, distinct(placement), seeds), {"steps": steps}),
+            Group(f"{prefix}placement", Design(preset, _placement(), seeds), {"steps": steps}),
             *_sides(preset, QUICK_STEPS // 4 if quick else QUICK_STEPS, seeds, prefix),
         ]
     neighbors = _SENSITIVITY_NEIGHBORS_QUICK if quick else _SENSITIVITY_NEIGHBORS
@@ -119,18 +119,26 @@ def _aamas2020(quick: bool, steps: int, seeds: int) -> list[Group]:
 
 
 def _variants(neighbors: Sequence[int], steps: int, seeds: int) -> list[Group]:
-    """One group each: its change is to the base scenario, before `fast` = 0 removes a fleet."""
+    """Curves and other starts of each: its change is to the base scenario, before `fast` = 0 removes a fleet."""
     shares = grid({"target_speed": SPEEDS, "fast": _SENSITIVITY_SHARES, "neighbors": SHARE_NEIGHBORS})
     points = distinct([*_curves(neighbors, SPEEDS), *shares])
     return [
         Group(
-            f"sensitivity/{_slug(name)}",
-            Design(PRINTED, points, seeds),
+            f"{kind}/{_slug(name)}",
+            Design(PRINTED, chosen, seeds),
             {"steps": steps // 2 if "1/2 steps" in name else steps, **changes},
             {"variant": name},
         )
         for name, changes in VARIANTS.items()
+        for kind, chosen in ((SENSITIVITY, points), (SENSITIVITY_PLACEMENT, _placement()))
     ]
+
+
+def _placement() -> tuple[Point, ...]:
+    """Other starts of the fast fleet."""
+    return distinct(
+        grid({"target_speed": SPEEDS, "fast": [MIXED], "neighbors": [20], "fleets.BoB-1.start": START_PLACES})
+    )
 
 
 def _curves(neighbors: Sequence[int], speeds: Sequence[float]) -> list[Point]:

@@ -28,7 +28,7 @@ QUICK = (
 TABLES = {
     "peaks": "Where the curves over k peak, and how high they are there",
     "sensitivity_peaks": "The same with what the paper leaves open decided the other way, one choice at a time",
-    "sensitivity_conclusions": "Verdicts on C1 to C10 under each of these choices, and which of them change",
+    "sensitivity_conclusions": "Verdicts on C1 to C13 under each of these choices, and which of them change",
     "verdicts": "The verdicts under both readings, and which depend on the reading",
     "refit_peaks": "The same under oceans2020-refit",
     "readings_scores": "Every reading: its verdicts, how many statements hold, and its score",

@@ -5,7 +5,7 @@ import os
 import platform
 import shlex
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numba
@@ -17,12 +17,23 @@ from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.experiments.replicate import Row
 from shoal.paper.claims import oceans_claims
 from shoal.paper.clusters import watch_clusters
-from shoal.paper.plan import PAPERS, PRINTED, QUICK_STEPS, REFIT, SPEEDS, Plan, make_plan
+from shoal.paper.plan import (
+    PAPERS,
+    PRINTED,
+    QUICK_STEPS,
+    REFIT,
+    SENSITIVITY,
+    SENSITIVITY_PLACEMENT,
+    SPEEDS,
+    Group,
+    Plan,
+    make_plan,
+)
 from shoal.paper.published import published_claims, residual_table
 from shoal.paper.readings_study import STUDY, run_study
 from shoal.paper.results import Claim, Reproduction
 from shoal.paper.running import Report, run_plan
-from shoal.paper.sensitivity import conclusion_table, peak_table
+from shoal.paper.sensitivity import Extra, conclusion_table, peak_table
 from shoal.paper.side_claims import side_claims
 from shoal.paper.side_watch import watch_sides
 
@@ -78,7 +89,9 @@ def reproduce(
 
 def judge_oceans(plan: Plan, rows: dict[str, list[Row]]) -> Reproduction:
     """Every claim under both readings, the peaks, and what they depend on."""
-    sensitivity = [row for name, group in rows.items() if name.startswith("sensitivity/") for row in group]
+    variants = [group for group in plan.groups if group.name.startswith(f"{SENSITIVITY}/")]
+    sensitivity = [row for group in variants for row in rows[group.name]]
+    extras = {group.labels["variant"]: _extra(group, rows) for group in variants}
     readings = ((PRINTED, ""), (REFIT, "refit/"))
     sides = {
         preset: [row for name, group in rows.items() if name.startswith(f"{prefix}side/") for row in group]
@@ -101,9 +114,16 @@ def judge_oceans(plan: Plan, rows: dict[str, list[Row]]) -> Reproduction:
             "peaks": peak_table(rows["main"]),
             "refit_peaks": peak_table(rows["refit/main"]),
             "sensitivity_peaks": peak_table(sensitivity),
-            "sensitivity_conclusions": conclusion_table(sensitivity),
+            "sensitivity_conclusions": conclusion_table(sensitivity, extras),
         },
     )
+
+
+def _extra(variant: Group, rows: Mapping[str, list[Row]]) -> Extra:
+    """What C11 to C13 need of a variant."""
+    steps, seeds = int(variant.changes["steps"]), variant.design.runs
+    placement = rows[variant.name.replace(SENSITIVITY, SENSITIVITY_PLACEMENT, 1)]
+    return Extra(placement, watch_clusters(min(steps, QUICK_STEPS), seeds, SPEEDS, variant.changes), steps)
 
 
 def verdict_table(printed: Sequence[Claim], refit: Sequence[Claim]) -> list[Row]:

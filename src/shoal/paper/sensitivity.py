@@ -1,13 +1,24 @@
 """What depends on what the paper does not say: peaks and verdicts with each open choice made the other way."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 from shoal.experiments.replicate import Row
-from shoal.paper.claims import SWARMS, c1, c2, c3, c4, c5, c6, c7, c8, c9, c10
+from shoal.paper.claims import SWARMS, c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11, c12, c13
+from shoal.paper.clusters import Episode
 from shoal.paper.curves import Interval, curve, peak, values_of
-from shoal.paper.plan import MIXED
+from shoal.paper.plan import FULL_STEPS, MIXED
+from shoal.paper.statements import at_full_length
 
-CONCLUSIONS = (c1, c2, c3, c4, c5, c6, c7, c8, c9, c10)  # C11 to C13 need other runs
+CONCLUSIONS = (c1, c2, c3, c4, c5, c6, c7, c8, c9, c10)  # from the curves alone
+
+
+class Extra(NamedTuple):
+    """What C11 to C13 need of a variant: other starts of the fast fleet, clusters, the length of its runs [steps]."""
+
+    placement: Sequence[Row]
+    episodes: Sequence[Episode]
+    steps: int
 
 
 def peak_table(rows: Sequence[Row]) -> list[Row]:
@@ -23,15 +34,19 @@ def peak_table(rows: Sequence[Row]) -> list[Row]:
     ]
 
 
-def conclusion_table(rows: Sequence[Row]) -> list[Row]:
-    """One row per variant: the verdicts on C1 to C10 at both target speeds, which of them the first variant decides
+def conclusion_table(rows: Sequence[Row], extras: Mapping[str, Extra] | None = None) -> list[Row]:
+    """One row per variant: the verdicts on C1 to C13 at both target speeds, which of them the first variant decides
     otherwise, and the best time on target of the mixed swarm with the slow target: where it is near zero, peaks are
-    peaks of nothing.
+    peaks of nothing. C11 to C13 are judged of the variants that have an extra; C13 is extrapolated from shorter runs.
     """
     table: list[Row] = []
     for name in _variants(rows):
         mine = [row for row in rows if row["variant"] == name]
-        verdicts = {claim.id: claim.verdict for claim in (conclude(mine) for conclude in CONCLUSIONS)}
+        claims = [conclude(mine) for conclude in CONCLUSIONS]
+        if extra := (extras or {}).get(name):
+            spread = at_full_length(mine, extra.steps)
+            claims += [c11(mine, extra.placement), c12(extra.episodes), c13(spread, FULL_STEPS)]
+        verdicts = {claim.id: claim.verdict for claim in claims}
         printed = table[0] if table else verdicts
         decided = [id_ for id_ in verdicts if "undecided" not in (verdicts[id_], printed[id_])]
         changed = [id_ for id_ in decided if verdicts[id_] != printed[id_]]
