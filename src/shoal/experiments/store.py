@@ -276,9 +276,13 @@ def _as_json(value: Any) -> Any:
 
 
 def _differences(path: str, then: Any, now: Any) -> list[str]:
-    """Every field that two identities do not share, as "path: value then, value now"."""
+    """Every field that two identities do not share, as "path: value then, value now".
+
+    A field that only one of them knows, as another version added it, is no difference where it is off: 0, false, empty.
+    """
     if isinstance(then, dict) and isinstance(now, dict):
-        names = dict.fromkeys([*then, *now])
+        both = then.keys() & now.keys()
+        names = [name for name in dict.fromkeys([*then, *now]) if name in both or then.get(name) or now.get(name)]
         return [each for name in names for each in _differences(f"{path}.{name}", then.get(name), now.get(name))]
     return [] if then == now else [f"{path}: {json.dumps(then)} then, {json.dumps(now)} now"]
 
