@@ -144,8 +144,8 @@ class TestSuite:
 
 BAD = [
     (["knn"], "did you mean 'knn-pso'"),
-    ([], "only the lattice is there"),
-    (["lattice"], "only the lattice is there"),
+    ([], "there is only the lattice"),
+    (["lattice"], "there is only the lattice"),
     (["./none.py"], "cannot be read"),
     (["broken.py", "--steps", "50"], "cannot be compiled"),
     (["knn-pso", "--suite", "areno"], "did you mean 'arena'"),

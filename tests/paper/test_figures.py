@@ -216,12 +216,12 @@ class TestReadings:
     def made(cls):
         verdicts = dict(zip((f"C{number}" for number in range(1, 14)), ("holds", "holds partly") * 7, strict=False))
         scores = [
-            {"reading": name, "stage": stage, "steps": 2000, "seeds": 2, **verdicts, "hold": 7, "score": 10.0,
+            {"reading": name, "trial": stage, "steps": 2000, "seeds": 2, **verdicts, "hold": 7, "score": 10.0,
              "printed": name == "old", "chosen": name == "new"}
             for stage, name in (("final", "new"), ("final", "old"), ("screen", "new"), ("screen", "old"))
         ]  # fmt: skip
         peaks = [
-            {"reading": row["reading"], "stage": row["stage"], "fast": fast, "target_speed": speed, "k_star": 18.0,
+            {"reading": row["reading"], "trial": row["trial"], "fast": fast, "target_speed": speed, "k_star": 18.0,
              "k_star_low": 17.0, "k_star_high": 19.0, "xi_peak_k": 25.0, "xi_peak_k_low": 24.0, "xi_peak_k_high": 26.0}
             for row, fast, speed in product(scores, (15, 0), (3.0, 5.0))
         ]  # fmt: skip

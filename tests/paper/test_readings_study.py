@@ -40,7 +40,7 @@ def study(out):
 
 def test_every_reading_is_screened_and_the_best_two_and_the_printed_one_go_on(study):
     scores = study.tables["readings_scores"]
-    screen, final = ([row for row in scores if row["stage"] == stage] for stage in ("screen", "final"))
+    screen, final = ([row for row in scores if row["trial"] == stage] for stage in ("screen", "final"))
     assert len(screen) == 4
     best = sorted(screen, key=lambda row: -row["score"])[:2]
     assert {row["reading"] for row in final} >= {printed().name}
@@ -51,7 +51,7 @@ def test_every_reading_is_screened_and_the_best_two_and_the_printed_one_go_on(st
 
 
 def test_chosen_is_the_finalist_under_which_most_statements_hold(study):
-    final = [row for row in study.tables["readings_scores"] if row["stage"] == "final"]
+    final = [row for row in study.tables["readings_scores"] if row["trial"] == "final"]
     (chosen,) = (row for row in final if row["chosen"])
     assert chosen["hold"] == max(row["hold"] for row in final)
 

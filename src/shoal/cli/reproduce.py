@@ -85,11 +85,11 @@ def _print_readings(found: "Reproduction") -> None:
     console = results_console()
     table = Table(box=None, padding=(0, 2, 0, 0))
     scores = found.tables["readings_scores"]
-    for title in ("reading", "stage", "hold", "do not", "score", ""):
+    for title in ("reading", "trial", "hold", "do not", "score", ""):
         table.add_column(title)
     for row in scores:
         mark = "chosen" if row["chosen"] else "as printed" if row["printed"] else ""
-        table.add_row(row["reading"], row["stage"], str(row["hold"]), str(row["do_not"]), f"{row['score']:g}", mark)
+        table.add_row(row["reading"], row["trial"], str(row["hold"]), str(row["do_not"]), f"{row['score']:g}", mark)
     console.print(table)
     _print_length(console, found)
 

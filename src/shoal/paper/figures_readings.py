@@ -45,11 +45,11 @@ def readings_figure(scores: Sequence[Row]) -> Figure | None:
         squares = _squares()
         figure.legend(handles=squares, loc="outside lower left", ncols=len(squares), borderaxespad=0.2)
     data = [
-        {"reading": row["reading"], "stage": row["stage"], **{id_: row[id_] for id_ in ids}}
+        {"reading": row["reading"], "trial": row["trial"], **{id_: row[id_] for id_ in ids}}
         | {"hold": row["hold"], "score": row["score"]}
         for row in scores
     ]
-    screened = sum(row["stage"] == "screen" for row in scores)
+    screened = sum(row["trial"] == "screen" for row in scores)
     caption = (
         f"{screened} readings of the paper, listed before any was run: the inertia ω, the half sides open to buoys and "
         "to waypoints [m], how the target moves, and what else is read otherwise. Above the line the finalists "
@@ -114,16 +114,16 @@ def _draw_peaks(
     """Dots with intervals, at both target speeds."""
     data: list[Row] = []
     axes.axvspan(aim - 2.5, aim + 2.5, color="#e1e5e8", linewidth=0, zorder=0)
-    known = {(row["reading"], row["stage"], row["target_speed"]): row for row in peaks if row["fast"] == fast}
+    known = {(row["reading"], row["trial"], row["target_speed"]): row for row in peaks if row["fast"] == fast}
     for line, row in enumerate(scores):
         for speed, color, marker, shift in _SPEEDS:
-            found = known.get((row["reading"], row["stage"], speed))
+            found = known.get((row["reading"], row["trial"], speed))
             if found is None:
                 continue
             at, low, high = (found[f"{column}{end}"] for end in ("", "_low", "_high"))
             axes.plot([low, high], [line - shift] * 2, color=color, linewidth=1.1, solid_capstyle="butt")
             axes.plot([at], [line - shift], marker, color=color, markersize=3.0)
-            data.append({"reading": row["reading"], "stage": row["stage"], "quantity": title, "target_speed": speed,
+            data.append({"reading": row["reading"], "trial": row["trial"], "quantity": title, "target_speed": speed,
                          "value": at, "low": low, "high": high})  # fmt: skip
     axes.set_xlabel(title)
     axes.set_xlim(*_LIMITS)
@@ -145,7 +145,7 @@ def _label_lines(axes: "Axes", scores: Sequence[Row]) -> None:
 
 def _part(axes: "Axes", scores: Sequence[Row]) -> None:
     """A line under the finalists."""
-    axes.axhline(sum(row["stage"] == "final" for row in scores) - 0.5, color=INK, linewidth=1.0)
+    axes.axhline(sum(row["trial"] == "final" for row in scores) - 0.5, color=INK, linewidth=1.0)
     axes.set_ylim(len(scores) - 0.5, -0.5)
 
 
@@ -159,7 +159,7 @@ def _name(row: Row) -> str:
 
 
 def _length(scores: Sequence[Row], stage: str) -> str:
-    lengths = [row for row in scores if row["stage"] == stage]
+    lengths = [row for row in scores if row["trial"] == stage]
     return f"{max(row['steps'] for row in lengths):,} steps, {lengths[0]['seeds']} seeds" if lengths else "none"
 
 

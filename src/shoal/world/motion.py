@@ -45,13 +45,16 @@ def moved(place, command, drift, clamp, time_step):
     """Advance along one axis by a time-step, Eq. 3, and stop at the wall: place [m] and velocity [m/s] after it.
 
     The displacement is the sum of what the agent commands and of what nature adds, `drift` [m]; its velocity stays the
-    one through the water. At the wall it becomes the displacement really made. An agent that starts outside the wall is
-    put inside, which is not its own motion: it counts from the wall on.
+    one through the water. At the wall it becomes the displacement really made, at most what it commands. An agent that
+    starts outside the wall is put inside, which is not its own motion: it counts from the wall on.
     """
     free = place + (command * time_step + drift)
     there = min(max(free, -clamp), clamp)
     inside = min(max(place, -clamp), clamp)
-    return there, command if there == free else (there - inside) / time_step
+    made = (there - inside) / time_step
+    if drift != 0.0:
+        made = min(max(made, -abs(command)), abs(command))
+    return there, command if there == free else made
 
 
 @kernel
