@@ -34,7 +34,8 @@ def test_a_wall_makes_the_velocity_the_displacement_really_made():
 
 def test_a_drift_adds_to_the_displacement_and_not_to_the_velocity_through_the_water():
     assert moved(1.0, 2.0, 0.25, 8.5, 0.5) == (2.25, 2.0)
-    assert moved(8.0, 0.0, 1.0, 8.5, 0.5) == (8.5, 1.0)  # and the wall stops the sum
+    assert moved(8.0, 0.0, 1.0, 8.5, 0.5) == (8.5, 0.0)  # the wall stops the sum; what carries it is not its own motion
+    assert moved(8.0, 0.5, 1.0, 8.5, 0.5) == (8.5, 0.5)
 
 
 @pytest.mark.parametrize("place", [0.0, -0.0])
