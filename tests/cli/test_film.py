@@ -67,6 +67,10 @@ BAD = [
     (["film", "oceans2020", "--out", "f.mp4", "--step", "9"], "--step: shows one step"),
     (["film", "oceans2020", "--out", "f.mp4", "--start", "99990", "--steps", "20"], "are more than the 100000"),
     (["film", "oceans2020", "--out", "f.mp4", "--sensors", "--steps", "2"], "sensor discs: have radius 0"),
+    (
+        ["film", "oceans2020", "--out", "f.mp4", "--links", "--set", "fleets.BoB-0.count=600"],
+        "are kept of up to 512 agents",
+    ),
     (["film", "full", "--out", "f.mp4"], "is not a record"),
     (["film", "full", "--out", "f.mp4", "--seed", "3"], "--seed: changes a scenario"),
 ]

@@ -17,7 +17,7 @@ from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.design import Design, grid
 from shoal.experiments.executors import in_threads
 from shoal.experiments.results import aggregate, read_rows, seal
-from shoal.experiments.store import Store
+from shoal.experiments.store import Store, _differences
 from shoal.experiments.sweep import Stop, sweep
 
 DESIGN = Design("oceans2020", tuple(grid({"neighbors": [10, 30], "fast": [0, 15]})), 2)
@@ -298,3 +298,21 @@ class TestDask:
         assert killed
         here = sweep(design, tmp_path / "here", changes=long)
         assert seal(tmp_path / "dask", rows).read_bytes() == seal(tmp_path / "here", here).read_bytes()
+
+
+class TestIdentity:
+    """What another version of Shoal added, and does not say anything, makes no other sweep."""
+
+    @pytest.mark.parametrize(
+        ("then", "now", "differ"),
+        [
+            ({"a": 1}, {"a": 1, "new": []}, False),
+            ({"a": 1}, {"a": 1, "new": None}, False),
+            ({"a": {"gone": {}}}, {"a": {}}, False),
+            ({"a": 1}, {"a": 1, "new": 0.0}, True),
+            ({"a": 0}, {"a": None}, True),
+            ({"a": []}, {"a": [1]}, True),
+        ],
+    )
+    def test_of_two_scenarios(self, then, now, differ):
+        assert bool(_differences("scenario", then, now)) is differ

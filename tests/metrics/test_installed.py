@@ -157,6 +157,7 @@ class TestABrokenPackage:
             ("tally.crowded.sum()", "tally.crowd.sum()", "the formula of its metric 'crowding' fails: AttributeError"),
             ("MEASUREMENT =", "MEASUREMENTS =", "crowding declares no measurement"),
             ("tally.crowded[step", "tally.crowd[step", "a kernel of it cannot be compiled"),
+            ("tally.crowded[step", "no_such_name[step", "a kernel of it cannot be compiled"),
         ],
     )
     def test_is_named_with_what_is_wrong(self, tmp_path, was, now, says):

@@ -38,3 +38,12 @@ class TestIsSafe:
     def test_what_hangs_is_not(self, monkeypatch):
         monkeypatch.setattr(crash, "LONGEST", 0.5)
         assert not is_safe(time.sleep, 60)
+
+
+def test_where_no_process_can_be_had_nothing_is_tried(monkeypatch):
+    def no_more(*_, **__):
+        raise OSError(11, "Resource temporarily unavailable")
+
+    monkeypatch.setattr(crash.subprocess, "run", no_more)
+    monkeypatch.setattr(multiprocessing, "get_all_start_methods", lambda: ["spawn"])
+    assert is_safe(math.sqrt, 1.0)

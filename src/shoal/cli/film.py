@@ -103,7 +103,7 @@ def film(
         record = _opened(source, seed=seed, assignments=assignments)
     else:
         table = edited_table(source, {"seed": seed}, assignments or [], None, None)
-        start, record = _filmed(source, table, start or 0, steps, every or 1, run)
+        start, record = _filmed(source, table, start or 0, steps, every or 1, run, links)
         steps = None  # all that was run from `start` on
     with progress_bar(f"{out.name}", "frames") as progress:
         made = write_film(
@@ -129,14 +129,18 @@ def _opened(folder: str, **changes: Any) -> "Record":
 
 
 def _filmed(
-    source: str, table: dict[str, Any], start: int, steps: int | None, every: int, run: int
+    source: str, table: dict[str, Any], start: int, steps: int | None, every: int, run: int, links: bool
 ) -> tuple[int, "Record"]:
     """Run a scenario, a little before `start` for the trails; return the first step shown, and the record."""
+    from shoal.core.links import MOST_LINKED
     from shoal.drawing.arena_drawing import trail_steps
     from shoal.drawing.footage import footage
     from shoal.scenario.load import scenario_from
 
     scenario = scenario_from(table, where=source)
+    if links and scenario.agents > MOST_LINKED:
+        problem = f"are kept of up to {MOST_LINKED} agents, and there are {scenario.agents:,}"
+        raise ScenarioError("--links", problem, "leave them out")
     start = -(-start // every) * every
     steps = min(_STEPS, max(scenario.steps - start, 1)) if steps is None else steps
     lead = min(start, -(-trail_steps(scenario) // every) * every)

@@ -20,15 +20,19 @@ def plugin_errors() -> Iterator[None]:
     try:
         yield
     except NumbaError as error:
-        package = package_in(str(error))
-        if package is None:
+        package = package_in(str(error)) or _any_package()
+        if not package:
             raise
         raise _uncompiled(package, reason_in(str(error))) from error
     except KeyError as error:  # numba looked for a field of a record, and says nothing else
-        packages = dict.fromkeys(package_of(entry) for entries in offers().values() for entry in entries)
-        if not packages:
+        if not (package := _any_package()):
             raise
-        raise _uncompiled(" or ".join(packages), f"{error.args[0]!r} is not a field of a record") from error
+        raise _uncompiled(package, f"{error.args[0]!r} is not a field of a record") from error
+
+
+def _any_package() -> str:
+    """All packages that offer something, where numba does not say whose kernel it was; empty if there is none."""
+    return " or ".join(dict.fromkeys(package_of(entry) for entries in offers().values() for entry in entries))
 
 
 def _uncompiled(package: str, reason: str) -> PluginError:

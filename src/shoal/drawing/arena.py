@@ -1,4 +1,4 @@
-"""The empty stage of a snapshot: edge, clamp, axes in m or km, scale bar."""
+"""The empty arena of a snapshot: edge, clamp, axes in m or km, scale bar."""
 
 import math
 from typing import TYPE_CHECKING, Any

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shoal.drawing.style import GRAY
-from shoal.record.frames import linked_pairs
+from shoal.record.frames import linked_pairs, who_hears_whom
 from shoal.record.trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ class Links:
     def __init__(self, axes: "Axes", frames: Trajectory) -> None:
         from matplotlib.collections import LineCollection
 
-        linked_pairs(frames, 0)
+        who_hears_whom(frames, 0)  # or there are none to draw
         self._lines = LineCollection([], colors=GRAY, linewidths=0.6, zorder=1.5)
         self._lines.set_gid("links")
         axes.add_collection(self._lines, autolim=False)

@@ -11,7 +11,7 @@ from shoal.core.links import link_bytes
 from shoal.metrics.tally import Tally, new_tally
 from shoal.world.arena import World
 from shoal.world.disturbances.catalogue import DISTURBANCE_FIELDS, MEMORY
-from shoal.world.disturbances.contract import EFFECTS, Nature
+from shoal.world.disturbances.contract import EFFECTS, NOT_BEGUN, Nature
 from shoal.world.neighbors import Links, new_links
 from shoal.world.radio import Radio, new_radio
 from shoal.world.targets.catalogue import TARGET_FIELDS
@@ -125,7 +125,7 @@ def new_nature(disturbances: int, lanes: int) -> Nature:
         disturbances=np.zeros(disturbances, DISTURBANCE_FIELDS).view(np.recarray),
         effects=effects,
         memory=np.zeros((disturbances, lanes), MEMORY).view(np.recarray),
-        clock=np.array([-1, 0]),
+        clock=np.array([NOT_BEGUN, 0]),
     )
 
 

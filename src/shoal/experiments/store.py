@@ -278,11 +278,12 @@ def _as_json(value: Any) -> Any:
 def _differences(path: str, then: Any, now: Any) -> list[str]:
     """Every field that two identities do not share, as "path: value then, value now".
 
-    A field that only one of them knows, as another version added it, is no difference where it is off: 0, false, empty.
+    A field that only one of them knows, as another version added it, is no difference where it says nothing.
     """
     if isinstance(then, dict) and isinstance(now, dict):
         both = then.keys() & now.keys()
-        names = [name for name in dict.fromkeys([*then, *now]) if name in both or then.get(name) or now.get(name)]
+        says = {name for each in (then, now) for name, value in each.items() if value not in (None, [], {})}
+        names = [name for name in dict.fromkeys([*then, *now]) if name in both or name in says]
         return [each for name in names for each in _differences(f"{path}.{name}", then.get(name), now.get(name))]
     return [] if then == now else [f"{path}: {json.dumps(then)} then, {json.dumps(now)} now"]
 

@@ -7,7 +7,7 @@ from shoal.core.agents import NEVER
 from shoal.run.simulation import Simulation
 from shoal.run.state import State
 from shoal.scenario.schema import Scenario
-from shoal.world.disturbances.contract import Weather
+from shoal.world.disturbances.contract import NOT_BEGUN, Weather
 
 Lanes = npt.NDArray[np.int64]
 
@@ -43,6 +43,9 @@ def carry_over(old: Simulation, scenario: Scenario, origin: npt.ArrayLike | None
                 now.targets[mine] = before.targets[mine]
         if new.scenario.disturbances == old.scenario.disturbances:
             _carry_weather(before.weather, now.weather, here, there)
+        else:  # others begin with the coming step; what the old ones did ends
+            now.targets["drift_x"][:] = now.targets["drift_y"][:] = 0.0
+            now.weather.clock[0] = NOT_BEGUN
         new.begin()
         _carry_memory(old, new, now, here, there)
         _carry_air(old, new, now, here, there)
@@ -60,7 +63,7 @@ def _carry_bodies(old: Simulation, new: Simulation, now: State, here: Lanes, the
 
 
 def _carry_weather(before: Weather, now: Weather, here: Lanes, there: Lanes) -> None:
-    """What the same disturbances do and remember; others begin now, as do all for agents that are new."""
+    """What the same disturbances do and remember; for agents that are new they begin now."""
     now.effects[here] = before.effects[there]
     now.memory[:, here] = before.memory[:, there]
     now.clock[:] = before.clock

@@ -181,7 +181,7 @@ class Simulation:
         for name, array in arrays_of(self._state):
             array[...] = saved[name] if name in saved else never_counted(array, name.removeprefix("tally."))
         self.number = int(saved["number"])
-        self.notes += [_note_of(name, name in self.state()) for name in lone]
+        self.notes += [_note_of(name, self.state().get(name)) for name in lone]
         self._settle()
 
     @property
@@ -251,11 +251,13 @@ class Simulation:
         return new_frames(count, self.scenario.agents, self._targets.size, self._swarm.memory.shape[1])
 
 
-def _note_of(name: str, known: bool) -> str:
-    """What is said of a sum that only the saved state has, or only this Shoal."""
+def _note_of(name: str, here: Any) -> str:
+    """What is said of a sum that only the saved state has, or only this Shoal, which then has the array `here`."""
     called = name.removeprefix("tally.")
-    if known:
+    if here is not None and here.dtype.kind == "f":
         return f"the saved state has no sum {called!r}, so that the metrics made of it are unknown"
+    if here is not None:
+        return f"the saved state has no sum {called!r}: the metrics made of it are of the rest of the run only"
     return f"the saved state has a sum {called!r}, which no installed package knows: it is dropped"
 
 

@@ -93,14 +93,14 @@ def snapshot(
     what : a record or its folder, or a simulation, as it is now
     run : number of a run that kept a trajectory; default the first of those
     step : one that was kept; default the last
-    links : draw a line to the k nearest others of each buoy
+    links : draw a line between buoys of which one heard the other in this step
     trail : steps of the targets' trails (the buoys' are a third of it), 0 for none
     halos, sensors : draw discs of radius a_R, circles as wide as sensors reach
     axes : matplotlib axes to draw into, in our look; default: a new figure
 
     Raises
     ------
-    RecordError : no such run or step was kept, or there is no a_R or sensor to show
+    RecordError : no such run or step was kept, or there are no links, a_R or sensor to show
     """
     record = current_record(what) if isinstance(what, Simulation) else _record(what)
     run = _run(record, run)

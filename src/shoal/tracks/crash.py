@@ -28,8 +28,11 @@ def is_safe(function: Callable[..., Any], *arguments: Any) -> bool:
     """
     if "fork" in multiprocessing.get_all_start_methods() and threading.active_count() == 1:
         child = multiprocessing.get_context("fork").Process(target=_try, args=(function, *arguments), daemon=True)
-        with suppress(OSError, AssertionError):  # no more processes; or this is a daemon, which may have no children
+        try:
             child.start()
+        except (OSError, AssertionError):  # no more processes; or this is a daemon, which may have no children
+            pass
+        else:
             return _ends(child)
     return _ends_elsewhere(function, arguments)
 
@@ -62,4 +65,6 @@ def _ends_elsewhere(function: Callable[..., Any], arguments: tuple[Any, ...]) ->
         )
     except subprocess.TimeoutExpired:
         return False
+    except OSError:  # no more processes: it cannot be tried
+        return True
     return ended.returncode in (0, 1)  # 1: it raised

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from scenarios import scenario
+from shoal.run.carry_over import carry_over
 from shoal.run.simulation import Simulation
 
 ROOM = {"area.width": 1e4, "area.height": 1e4, "steps": 100}
@@ -81,3 +82,51 @@ class TestGusts:
         flow = np.diff((carried - targets)[:, 0]) / 0.1
         assert flow.mean() == pytest.approx(2.0, abs=0.04)
         assert (flow.real.std(), flow.imag.std()) == pytest.approx((0.5, 0.5), rel=0.05)
+
+
+class TestSteps:
+    def test_time_is_counted_in_steps_whatever_floats_say(self):
+        """3 * 0.3 is less than 0.9."""
+        table = {"time_step": 0.3, "targets": [WALK], **ROOM, "disturbances": [{"kind": "current", "east": 1.0}]}
+        always = Simulation(scenario(changes=table)).advance(6, every=1)
+        late = {**table, "disturbances": [{"kind": "current", "east": 1.0, "since": 0.9}]}
+        begun = Simulation(scenario(changes=late)).advance(6, every=1)
+        behind = always.target_x[:, 0] - begun.target_x[:, 0]
+        assert behind == pytest.approx([0.0, 0.3, 0.6, 0.9, 0.9, 0.9], abs=1e-9)
+
+
+class TestEdge:
+    def test_a_target_that_is_pressed_against_the_edge_keeps_heading_inside(self):
+        line = {"kind": "line", "radius": 1.0, "speed": 1.0}
+        simulation = Simulation(
+            scenario(changes={"targets": [line], "disturbances": [{"kind": "current", "east": 2.0}], "steps": 400})
+        )
+        simulation.advance(300)
+        headings = []
+        for _ in range(50):
+            simulation.advance(1)
+            headings.append(simulation.targets["heading_x"][0])
+        assert max(headings) < 0.0  # west, against the current, which presses it to the eastern edge
+
+
+class TestLiveEdit:
+    def test_a_current_that_is_taken_away_carries_nothing_any_more(self):
+        still = [{"kind": "line", "radius": 1.0, "speed": 0.0}]
+        flowing = {"targets": still, "disturbances": [{"kind": "current", "east": 0.5}], **ROOM}
+        old = Simulation(scenario(changes=flowing))
+        old.advance(20)
+        calm = carry_over(old, scenario(changes={"targets": still, **ROOM}))
+        place = calm.targets["x"][0]
+        calm.advance(5)
+        assert calm.targets["x"][0] == place
+
+    def test_another_current_begins_with_the_coming_step(self):
+        still = [{"kind": "line", "radius": 1.0, "speed": 0.0}]
+        old = Simulation(scenario(changes={"targets": still, **ROOM}))
+        other = {"targets": still, "disturbances": [{"kind": "current", "east": 0.5}], **ROOM}
+        for steps in (0, 20):
+            old.advance(steps)
+            new = carry_over(old, scenario(changes=other))
+            place = new.targets["x"][0]
+            new.advance(5)
+            assert new.targets["x"][0] - place == pytest.approx(5 * 0.05)

@@ -66,12 +66,15 @@ class Around(NamedTuple):
     chance: Any
 
 
+NOT_BEGUN = -1  # the step of which nothing is done yet
+
+
 class Nature(NamedTuple):
     """The disturbances of a run, and what they do; D disturbances, L lanes.
 
     disturbances : (D,) records of what is chosen; effects : (L,) records of EFFECTS, for the coming step
     memory : (D, L) records of what each remembers of each agent
-    clock : (2,) the step that the effects are for, -1 before the first; 1 once a drift was not finite
+    clock : (2,) the step that the effects are for, NOT_BEGUN before the first; 1 once a drift was not finite
     """
 
     disturbances: npt.NDArray[Any]

@@ -6,7 +6,7 @@ from typing import Any
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import START_STEP, TARGET_STREAM, split
 from shoal.world.disturbances.catalogue import KINDS
-from shoal.world.disturbances.contract import Around
+from shoal.world.disturbances.contract import NOT_BEGUN, Around
 from shoal.world.presence import is_there
 
 _STREAM = 1 << 34  # of keys that neither agents, targets nor the radio draw from
@@ -20,7 +20,7 @@ def disturb(nature, swarm, targets, world, number, run_key):
     """
     if nature.clock[0] == number:
         return
-    if nature.clock[0] < 0:
+    if nature.clock[0] == NOT_BEGUN:
         _begin_all(nature.disturbances, nature.effects, nature.memory, swarm, world, run_key)
     nature.clock[0] = number
     _calm(nature.effects, swarm, targets, world)
@@ -76,7 +76,8 @@ def _calm(effects, swarm, targets, world):
 @kernel
 def _act(options, around, key, effects, memory, swarm, targets):
     """Let one disturbance act on whom it is about, while it lasts; memory : (L,) what it remembers."""
-    if around.time < options.since or around.time >= options.until:
+    soon = around.time + 1e-6 * around.time_step  # 3 * 0.3 is less than 0.9
+    if soon < options.since or soon >= options.until:
         return
     for i in range(around.agents):
         there = is_there(around.number, swarm.joins[i], swarm.leaves[i])

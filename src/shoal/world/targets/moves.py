@@ -40,11 +40,11 @@ def go(target, dx, dy):
 
 @kernel
 def advance_straight(target, distance):
-    """Move so far [m] along the heading; at the edge of its box, place and heading are mirrored."""
+    """Move so far [m] along the heading; at the edge of its box the place is mirrored, and the heading leads inside."""
     go(target, distance * target.heading_x, distance * target.heading_y)
     if abs(target.x) > target.half_x:
+        target.heading_x = -math.copysign(target.heading_x, target.x)
         target.x = math.copysign(max(2.0 * target.half_x - abs(target.x), -target.half_x), target.x)
-        target.heading_x = -target.heading_x
     if abs(target.y) > target.half_y:
+        target.heading_y = -math.copysign(target.heading_y, target.y)
         target.y = math.copysign(max(2.0 * target.half_y - abs(target.y), -target.half_y), target.y)
-        target.heading_y = -target.heading_y
