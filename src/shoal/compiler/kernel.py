@@ -35,6 +35,7 @@ try:
     from numba.core.errors import NumbaExperimentalFeatureWarning
     from numba.core.errors import TypingError as TypingError
 
+    from shoal.compiler.inlined import InlinedCompiler
     from shoal.compiler.inner import FLAGS, INNER_FLAGS, Inner
 
     # Fleets with strategies of their own share memory records, which numba passes by their first fields and warns of.
@@ -57,7 +58,9 @@ def kernel(function: Function) -> Function:
     """Compile a function that other kernels call; it is compiled into them and not cached by itself."""
     if hasattr(function, "py_func") or not compiles():
         return function  # compiled already, or never
-    return cast(Function, Inner(function, targetoptions={"nopython": True, **INNER_FLAGS}))
+    return cast(
+        Function, Inner(function, targetoptions={"nopython": True, **INNER_FLAGS}, pipeline_class=InlinedCompiler)
+    )
 
 
 def entry_kernel(function: Function) -> Function:

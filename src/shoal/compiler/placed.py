@@ -23,15 +23,17 @@ made of compiled sources alone, whose hash names the cache. A stage of another t
 
 from collections.abc import Callable
 from functools import cache
+from struct import pack_into
 from typing import Any
 
 import numpy as np
 from llvmlite import ir
 from numba import typeof, types
 from numba.core import cgutils
-from numba.extending import intrinsic, overload
+from numba.core.registry import cpu_target
+from numba.extending import lower_builtin, type_callable
 
-from shoal.compiler.kernel import compiles, entry_kernel
+from shoal.compiler.kernel import compiles
 
 _MODEL: list[Callable[[], Any]] = []  # makes a stage, however small, of the type that all have
 
@@ -60,9 +62,9 @@ class Placed:
         self.address = stage
         if compiles():
             _refuse_other_types(stage)
-            self.room = np.empty(_size(), np.uint8)
+            self.room = np.zeros(_size(), np.uint8)
             self.address = self.room.ctypes.data
-            _put(stage, self.address)
+            _put(stage, _layout(), self.room)
 
 
 def part(stage: Any, field: int) -> Any:
@@ -102,48 +104,60 @@ def _leaves(value: Any, name: str) -> Any:
         yield name, np.asarray(value).dtype.name
 
 
-@entry_kernel
-def _put(stage, address):
-    _store(stage, address)
+def _put(value: Any, where: Any, room: Any) -> None:
+    """Write a value to its place in a room, as kernels read it: of arrays, what numba's array structure says."""
+    if isinstance(value, tuple):
+        for each, place in zip(value, where, strict=True):
+            _put(each, place, room)
+    elif isinstance(value, np.ndarray):
+        address = value.ctypes.data
+        form = f"=2Q2qQ{2 * value.ndim}q"
+        pack_into(form, room, where, 0, 0, value.size, value.itemsize, address, *value.shape, *value.strides)
+    else:
+        number = np.asarray(value)
+        room[where : where + number.nbytes] = np.frombuffer(number.tobytes(), np.uint8)
 
 
-@entry_kernel
-def _size():
-    return _bytes()
+@cache
+def _layout() -> Any:
+    """Where in the block each number and array is: offsets in nested lists, one per NamedTuple."""
+    target = cpu_target.target_context
+    data = target.codegen().target_data
+
+    def offsets(kind: Any, start: int) -> Any:
+        if not isinstance(kind, _TUPLE):
+            return start
+        whole = target.get_data_type(kind)
+        if isinstance(whole, ir.ArrayType):  # of a NamedTuple whose fields are all alike
+            size = whole.element.get_abi_size(data)
+            return [offsets(each, start + size * place) for place, each in enumerate(kind)]
+        return [offsets(each, start + whole.get_element_offset(data, place)) for place, each in enumerate(kind)]
+
+    return offsets(_type(), 0)
+
+
+@cache
+def _size() -> int:
+    target = cpu_target.target_context
+    return int(target.get_abi_sizeof(target.get_data_type(_type())))
 
 
 _TUPLE: Any = types.BaseTuple  # NamedTuples, too
-_as_kernel: Any = intrinsic
-_as_literal_kernel: Any = intrinsic(prefer_literal=True)
 
 
-@_as_kernel
-def _bytes(context):
-    def build(context, builder, signature, arguments):
-        return ir.Constant(ir.IntType(64), context.get_abi_sizeof(context.get_data_type(_type())))
+@type_callable(part)
+def _type_of_part(context):
+    def typer(stage, field):
+        return _type()[field.literal_value] if isinstance(field, types.IntegerLiteral) else None
 
-    return types.int64(), build
-
-
-@_as_kernel
-def _store(context, stage, address):
-    def build(context, builder, signature, arguments):
-        kind = context.get_data_type(stage)
-        context.pack_value(builder, stage, arguments[0], builder.inttoptr(arguments[1], kind.as_pointer()))
-        return context.get_dummy_value()
-
-    return types.none(stage, types.intp), build
+    return typer
 
 
-@_as_literal_kernel
-def _load(context, stage, field):
-    place, stage = field.literal_value, _type()
-
-    def build(context, builder, signature, arguments):
-        pointer = builder.inttoptr(arguments[0], context.get_data_type(stage).as_pointer())
-        return _unowned(context, builder, stage[place], cgutils.gep_inbounds(builder, pointer, 0, place))
-
-    return stage[place](types.int64, field), build
+@lower_builtin(part, types.Integer, types.IntegerLiteral)
+def _load(context, builder, signature, arguments):
+    place, stage = signature.args[1].literal_value, _type()
+    pointer = builder.inttoptr(arguments[0], context.get_data_type(stage).as_pointer())
+    return _unowned(context, builder, stage[place], cgutils.gep_inbounds(builder, pointer, 0, place))
 
 
 def _unowned(context: Any, builder: Any, kind: Any, pointer: Any) -> Any:
@@ -160,8 +174,3 @@ def _unowned(context: Any, builder: Any, kind: Any, pointer: Any) -> Any:
         array.meminfo = cgutils.get_null_value(array.meminfo.type)
         return array._getvalue()
     return value
-
-
-@overload(part, inline="always", prefer_literal=True)
-def _part_kernel(stage, field):
-    return lambda stage, field: _load(stage, field)
