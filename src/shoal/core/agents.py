@@ -27,6 +27,7 @@ class Bodies(NamedTuple):
     on_target : what it believes and reports; engaged : whether it detects a present target, not a false alarm
     alive : 1.0, or 0.0 if lost or not yet joined; joins, leaves : it is present in steps [joins, leaves)
     neighbors : k of each agent; contact : share of recent steps with a leader, by which k may adapt
+    drift_x, drift_y : what nature added to its velocity in the last step [m/s]; aground : whether land stopped it then
     memory, told : (L, fields) what agents remember, and what of it they tell; the strategy sees them as `Memories`
     """
 
@@ -43,6 +44,9 @@ class Bodies(NamedTuple):
     leaves: npt.NDArray[np.int64]
     neighbors: npt.NDArray[np.int64]
     contact: Floats
+    drift_x: Floats
+    drift_y: Floats
+    aground: npt.NDArray[np.bool_]
     memory: Floats
     told: Floats
 
@@ -53,7 +57,8 @@ class Makes(NamedTuple):
     max_speed [m/s], sensor_radius [m]
     detection, false_alarm : chance per step to notice a target within reach, and to report an absent one
     max_acceleration [m/s^2], max_turn_rate [rad/s] : inf for none
-    share_end : its part of the swarm's summed top speeds ends here, see `Briefing`
+    share_end : its part of the swarm's summed top speeds ends here, see `Briefing`; station_x, station_y : see there
+    leeway : (L, 4) how the wind moves it, fields of world/sea/sea.py's Leeway
     fleet : index of the agent's fleet; fleet_end : (F,) one past the last agent of each fleet
     """
 
@@ -64,6 +69,9 @@ class Makes(NamedTuple):
     max_acceleration: Floats
     max_turn_rate: Floats
     share_end: Floats
+    station_x: Floats
+    station_y: Floats
+    leeway: Floats
     fleet: npt.NDArray[np.int64]
     fleet_end: npt.NDArray[np.int64]
 
@@ -143,7 +151,13 @@ def new_swarm(counts: list[int], fields: tuple[str, ...], told: tuple[str, ...] 
         leaves=np.full(lanes, NEVER),
         neighbors=neighbors,
         contact=np.zeros(lanes),
+        drift_x=np.zeros(lanes),
+        drift_y=np.zeros(lanes),
+        aground=np.zeros(lanes, np.bool_),
         share_end=np.zeros(lanes),
+        station_x=np.zeros(lanes),
+        station_y=np.zeros(lanes),
+        leeway=np.zeros((lanes, 4)),
         fleet=fleet,
         fleet_end=np.cumsum(counts),
         memory=np.zeros((lanes, width(fields))),

@@ -33,6 +33,10 @@ class TrackError(ShoalError):
     """A recorded track that cannot be used."""
 
 
+class SeaError(ShoalError):
+    """A file of currents, wind or coast that cannot be used."""
+
+
 class StrategyError(ShoalError):
     """A strategy that cannot be found, loaded or compiled."""
 

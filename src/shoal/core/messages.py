@@ -15,6 +15,7 @@ class Briefing(NamedTuple):
     agents : N; half_x, half_y : agents may go to +- these [m]
     reach : how far its sensor sees the smallest target [m]
     share_begin, share_end : its part of the swarm's summed top speeds, in the order of ids, from 0 to 1
+    charted : whether there is a coast; station_x, station_y : its place in an even cover of the water then [m]
     """
 
     agents: int
@@ -23,6 +24,9 @@ class Briefing(NamedTuple):
     reach: float
     share_begin: float
     share_end: float
+    charted: bool = False
+    station_x: float = 0.0
+    station_y: float = 0.0
 
 
 class Reading(NamedTuple):
@@ -51,7 +55,11 @@ class Truth(NamedTuple):
 
 
 class Own(NamedTuple):
-    """What an agent knows of itself. `time` [s] since the start of the run, `fleet`: index of its fleet."""
+    """What an agent knows of itself. `time` [s] since the start of the run, `fleet`: index of its fleet.
+
+    vx, vy : through the water [m/s]; drift_x, drift_y : what water and wind added in the last step [m/s]
+    aground : whether land stopped it in the last step
+    """
 
     id: int
     x: float
@@ -65,6 +73,9 @@ class Own(NamedTuple):
     fleet: int
     briefing: Briefing
     truth: Truth
+    drift_x: float = 0.0
+    drift_y: float = 0.0
+    aground: bool = False
 
 
 class Report(NamedTuple):

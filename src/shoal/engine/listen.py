@@ -84,7 +84,7 @@ def sum_influence(arrived, listeners, links, params, agents, sums):
 @kernel
 def _listener(listeners, i):
     """Lane i of a block, as far as pairs need it: listeners in the inner loops have no briefing and no truth."""
-    briefing = Briefing(0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    briefing = Briefing(0, 0.0, 0.0, 0.0, 0.0, 0.0, False, 0.0, 0.0)
     truth = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     return Own(
         listeners.first + i,
@@ -99,4 +99,7 @@ def _listener(listeners, i):
         listeners.fleet[i],
         briefing,
         truth,
+        0.0,
+        0.0,
+        False,
     )

@@ -15,13 +15,13 @@ from shoal.core.draws import TARGET_STREAM, split
 from shoal.core.plugin_errors import plugin_errors
 from shoal.engine.frames import keep_frame, keep_links
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
-from shoal.engine.stage import FRAMES, NATURE, RADIO, RUN, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD, Addresses
+from shoal.engine.stage import FRAMES, NATURE, RADIO, RUN, SCRATCH, SEA, SWARM, TALLY, TARGETS, TRACKS, WORLD, Addresses
 from shoal.metrics.contract import Step
 from shoal.world.disturbances.dispatch import disturb
-from shoal.world.motion import limit_maneuver, limit_speed, move, move_adrift, slow_down
+from shoal.world.motion import limit_maneuver, limit_speed, move, move_adrift, note_drift, sail, slow_down
 from shoal.world.neighbors import count_heard, link_nearest, measure_distances, rank_heard, settle_ties
 from shoal.world.presence import update_presence
-from shoal.world.radio import adapt_degree, deafen, limit_links, lose_reports, said, send
+from shoal.world.radio import adapt_degree, deafen, hide_behind_land, limit_links, lose_reports, said, send
 from shoal.world.sensing import sense
 from shoal.world.targets.dispatch import advance_target
 
@@ -43,7 +43,7 @@ def sense_all(stage, number, first, batch, key):
         disturb(nature, swarm, targets, world, number, split(split(run.seed, 0), run.run))
     if world.mortal:
         update_presence(swarm, world, number)
-    sense(swarm, targets, nature.effects, world, key)
+    sense(swarm, targets, nature.effects, part(stage, SEA), world, key)
     measure_before_move(tally, Step(number, batch, 0), world, swarm, targets, scratch)
     if radio.delay > 0:
         send(radio, swarm, number)
@@ -64,18 +64,20 @@ def link(stage, number, first, batch, key):
     swarm = part(stage, SWARM)
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
-    find_links(scratch.links, world, swarm, radio, part(stage, NATURE).effects, number, first)
+    find_links(scratch.links, world, swarm, radio, part(stage, NATURE).effects, part(stage, SEA), number, first)
     return 0
 
 
 @kernel
-def find_links(links, world, swarm, radio, effects, number, first):
+def find_links(links, world, swarm, radio, effects, sea, number, first):
     """Link the agents from `first` on to those whose reports may reach them, ties and losses aside."""
     last = first + links.reach.size
     reports = said(radio, swarm, number)
     measure_distances(links, reports.x, reports.y, swarm.x[first:last], swarm.y[first:last], first, world.agents)
     if world.disturbed:
         deafen(links, effects, first, world.agents)
+    if world.coastal:
+        hide_behind_land(links, reports, swarm, sea.land, radio.range_square, first, world.agents)
     if radio.limited:
         limit_links(links, swarm, radio, first, world.agents, number)
         link_nearest(links, links.wanted, world.agents)
@@ -135,12 +137,17 @@ def move_agents(stage, number, first, batch, key):
     if world.inertial:
         limit_maneuver(swarm, first, there, world.time_step)
     limit_speed(command_x, command_y, swarm.max_speed[first:last], world.divide)
+    effects = part(stage, NATURE).effects
+    if world.disturbed:
+        slow_down(command_x, command_y, swarm.max_speed[first:last], effects[first:last].speed)
+    if world.flowing or world.coastal:
+        sail(swarm, effects, part(stage, SEA), world, number, first, there)
+        return 0
     x, y, vx, vy = swarm.x[first:last], swarm.y[first:last], swarm.vx[first:last], swarm.vy[first:last]
     if world.disturbed:
-        effects = part(stage, NATURE).effects[first:last]
-        slow_down(command_x, command_y, swarm.max_speed[first:last], effects.speed)
-        move_adrift(x, vx, command_x, effects.drift_x, world.clamp_x, world.time_step)
-        move_adrift(y, vy, command_y, effects.drift_y, world.clamp_y, world.time_step)
+        move_adrift(x, vx, command_x, effects[first:last].drift_x, world.clamp_x, world.time_step)
+        move_adrift(y, vy, command_y, effects[first:last].drift_y, world.clamp_y, world.time_step)
+        note_drift(swarm, effects, world.time_step, first, there)
     else:
         move(x, vx, command_x, world.clamp_x, world.time_step)
         move(y, vy, command_y, world.clamp_y, world.time_step)
@@ -162,8 +169,9 @@ def move_targets(stage, number, first, batch, key):
     swarm = part(stage, SWARM)
     targets = part(stage, TARGETS)
     tracks = part(stage, TRACKS)
+    sea = part(stage, SEA)
     for j in range(targets.size):
-        advance_target(targets[j], tracks, swarm, world, number + 1, split(key, TARGET_STREAM + j))
+        advance_target(targets[j], tracks, swarm, sea, world, number + 1, split(key, TARGET_STREAM + j))
     return 0
 
 
@@ -182,7 +190,7 @@ def come_to_rest(stage, number, first, batch, key):
         disturb(nature, swarm, targets, world, number, split(split(run.seed, 0), run.run))
     if world.mortal:
         update_presence(swarm, world, number)
-    sense(swarm, targets, nature.effects, world, key)
+    sense(swarm, targets, nature.effects, part(stage, SEA), world, key)
     if nature.clock[1] != 0:
         return SPOILED_DRIFT
     for target in targets:
@@ -209,7 +217,7 @@ def look_at_links(stage, number, first, frame, key):
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
     links = scratch.links
-    find_links(links, world, swarm, radio, part(stage, NATURE).effects, number, first)
+    find_links(links, world, swarm, radio, part(stage, NATURE).effects, part(stage, SEA), number, first)
     count_heard(links, world.agents)
     settle_links(links, world, swarm, radio, first, key)
     keep_links(frames, frame, links, first, world.agents)

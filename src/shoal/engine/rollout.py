@@ -8,10 +8,10 @@ from shoal.compiler.phase import enter
 from shoal.compiler.placed import part
 from shoal.core.draws import START_STEP, TARGET_STREAM, split
 from shoal.engine.self import own
-from shoal.engine.stage import FRAMES, PHASES, RADIO, RUN, SCRATCH, SWARM, TALLY, TARGETS, TRACKS, WORLD
+from shoal.engine.stage import FRAMES, PHASES, RADIO, RUN, SCRATCH, SEA, SWARM, TALLY, TARGETS, TRACKS, WORLD
 from shoal.engine.step import Now, Parts, step, tell
 from shoal.strategies import contract
-from shoal.world.placement import place
+from shoal.world.placement import draw_sides, place
 from shoal.world.presence import draw_lifetimes, draw_losses, update_presence
 from shoal.world.radio import begin_degree
 from shoal.world.targets.dispatch import begin_target
@@ -32,7 +32,9 @@ def set_out(stage, places, lifetimes, losses):
     run = part(stage, RUN)
     run_key = split(split(run.seed, 0), run.run)
     start_key = split(run_key, START_STEP)
-    place(swarm, world, places, run_key)
+    sea = part(stage, SEA)
+    place(swarm, sea, world, places, run_key)
+    draw_sides(swarm, targets, world, run_key)
     draw_lifetimes(swarm, world, lifetimes, run_key)
     for number, fleet, count in losses:
         draw_losses(swarm, world, number, fleet, count, run_key)
@@ -40,7 +42,7 @@ def set_out(stage, places, lifetimes, losses):
     if radio.adaptive:
         begin_degree(swarm, radio, world.agents)
     for j in range(targets.size):
-        begin_target(targets[j], tracks, swarm, world, split(start_key, TARGET_STREAM + j))
+        begin_target(targets[j], tracks, swarm, sea, world, split(start_key, TARGET_STREAM + j))
 
 
 @entry_kernel

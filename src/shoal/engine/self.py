@@ -16,6 +16,9 @@ def own(world, swarm, targets, params, number, i):
         swarm.sensor_radius[i] + world.target_radius,
         swarm.share_end[i - 1] if i > 0 else 0.0,
         swarm.share_end[i],
+        world.coastal,
+        swarm.station_x[i],
+        swarm.station_y[i],
     )
     return Own(
         i,
@@ -30,6 +33,9 @@ def own(world, swarm, targets, params, number, i):
         swarm.fleet[i],
         briefing,
         _truth(swarm.x[i], swarm.y[i], targets, params),
+        swarm.drift_x[i],
+        swarm.drift_y[i],
+        swarm.aground[i],
     )
 
 

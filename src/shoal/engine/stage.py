@@ -14,6 +14,7 @@ from shoal.world.disturbances.catalogue import DISTURBANCE_FIELDS, MEMORY
 from shoal.world.disturbances.contract import EFFECTS, NOT_BEGUN, Nature
 from shoal.world.neighbors import Links, new_links
 from shoal.world.radio import Radio, new_radio
+from shoal.world.sea.sea import Sea, calm_sea
 from shoal.world.targets.catalogue import TARGET_FIELDS
 from shoal.world.targets.contract import Tracks
 
@@ -81,11 +82,11 @@ class Run(NamedTuple):
     steps: int
 
 
-WORLD, SWARM, RADIO, TARGETS, TRACKS, NATURE, TALLY, SCRATCH, FRAMES, PHASES, RUN = range(11)  # fields, for kernels
+WORLD, SWARM, RADIO, TARGETS, TRACKS, NATURE, SEA, TALLY, SCRATCH, FRAMES, PHASES, RUN = range(12)  # fields, for kernels
 
 
 class Stage(NamedTuple):
-    """World, agents, radio, targets, disturbances, sums, working arrays, frames, phases and chance of one run."""
+    """World, agents, radio, targets, disturbances, sea, sums, working arrays, frames, phases and chance of one run."""
 
     world: World
     swarm: Swarm
@@ -93,6 +94,7 @@ class Stage(NamedTuple):
     targets: npt.NDArray[Any]
     tracks: Tracks
     nature: Nature
+    sea: Sea
     tally: Tally
     scratch: Scratch
     frames: Frames
@@ -162,6 +164,7 @@ def model_stage() -> Stage:
         np.zeros(1, TARGET_FIELDS).view(np.recarray),
         Tracks(np.zeros(1), np.zeros(1), np.zeros(1)),
         new_nature(1, 1),
+        calm_sea(),
         new_tally(1, 1, 1, 2, 1),
         new_scratch(world, 2),
         new_frames(0, 2, 1, 1),

@@ -14,17 +14,20 @@ from shoal.scenario.briefing import degrees, shares
 from shoal.scenario.crew import Crew
 from shoal.scenario.schema import Scenario
 from shoal.scenario.targets import MovingTarget
+from shoal.scenario.windage import leeway
 from shoal.world.arena import World
 from shoal.world.assembled import fill
 from shoal.world.disturbances.catalogue import KINDS as DISTURBANCES
 from shoal.world.disturbances.catalogue import NUMBERS as DISTURBANCE_NUMBERS
 from shoal.world.disturbances.contract import Nature
 from shoal.world.radio import new_radio
+from shoal.world.sea.field import STILL
+from shoal.world.sea.sea import Leeway, Sea
 from shoal.world.targets.catalogue import KINDS, NUMBERS, TARGET_FIELDS
 from shoal.world.targets.contract import Tracks
 
 
-def build_world(scenario: Scenario) -> World:
+def build_world(scenario: Scenario, sea: Sea) -> World:
     """What nobody controls."""
     area, fleets = scenario.area, scenario.fleets
     return World(
@@ -42,6 +45,8 @@ def build_world(scenario: Scenario) -> World:
         or bool(scenario.disturbances),
         mortal=_is_mortal(scenario),
         disturbed=bool(scenario.disturbances),
+        flowing=sea.currents.kind != STILL or sea.wind.kind != STILL,
+        coastal=sea.shore.distance.size > 1,
         target_radius=min(target.radius for target in scenario.targets),
     )
 
@@ -61,7 +66,7 @@ def build_swarm(scenario: Scenario, crew: Crew) -> Any:
     swarm = new_swarm(counts, crew.memory, crew.told)
 
     def fill(array: Any, values: list[Any]) -> None:
-        array[:agents] = np.repeat(values, counts)
+        array[:agents] = np.repeat(values, counts, axis=0)
 
     fill(swarm.max_speed, [fleet.max_speed for fleet in fleets])
     fill(swarm.sensor_radius, [fleet.sensor_radius for fleet in fleets])
@@ -70,6 +75,7 @@ def build_swarm(scenario: Scenario, crew: Crew) -> Any:
     fill(swarm.max_acceleration, [fleet.max_acceleration or math.inf for fleet in fleets])
     fill(swarm.max_turn_rate, [math.radians(fleet.max_turn_rate or math.inf) for fleet in fleets])
     fill(swarm.neighbors, degrees(scenario, crew))
+    fill(swarm.leeway, [leeway(fleet.windage) for fleet in fleets])
     swarm.share_end[:agents] = shares(scenario)
     nobody = swarm.fleet_end - [
         sum(join.count for join in scenario.joins if join.fleet == each.name) for each in fleets
@@ -81,13 +87,13 @@ def build_swarm(scenario: Scenario, crew: Crew) -> Any:
     return swarm
 
 
-def build_radio(scenario: Scenario, crew: Crew, lanes: int) -> Any:
+def build_radio(scenario: Scenario, crew: Crew, world: World, lanes: int) -> Any:
     """Limits of the network, and room for reports in flight. Strategies that hear all get k = N - 1 here, too."""
     network, adaptive = scenario.network, scenario.network.adaptive
     radio = new_radio(
         lanes,
         crew.told,
-        limited=network.range is not None or network.delay > 0 or _is_mortal(scenario),
+        limited=network.range is not None or network.delay > 0 or world.mortal or world.coastal,
         reach=network.range or math.inf,
         delay=network.delay,
         loss=network.loss,
@@ -128,6 +134,8 @@ def build_targets(scenario: Scenario, tracks: Sequence[Any]) -> tuple[Any, Track
         record["radius"] = target.radius
         record["present"] = 1
         record["lost"] = -1
+        for name, number in zip(Leeway._fields, leeway(target.windage), strict=True):
+            record[f"leeway_{name}"] = number
         if isinstance(target, MovingTarget):
             record["half_x"] = scenario.area.width / 2 - target.margin
             record["half_y"] = scenario.area.height / 2 - target.margin

@@ -22,7 +22,10 @@ from shoal.record.saved_state import read_state, write_state
 from shoal.record.trajectory import Trajectory
 from shoal.run.build import build_nature, build_radio, build_swarm, build_targets, build_world, losses_of
 from shoal.run.facts import roster_of
+from shoal.run.sea import build_sea
 from shoal.run.state import State, arrays_of, read_only, state_of
+from shoal.run.stations import stations
+from shoal.scenario.at_sea import open_sea
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
 from shoal.scenario.on_track import open_tracks
@@ -65,11 +68,16 @@ class Simulation:
         self.number = 0
         self.crew = crew_of(scenario)
         self.memory_fields = self.crew.memory
-        self.world = build_world(scenario)
-        self._swarm = build_swarm(scenario, self.crew)
-        self._radio = build_radio(scenario, self.crew, self._swarm.x.size)
+        opened = open_sea(scenario)
         tracks = open_tracks(scenario)
-        self.notes = [note for track in tracks for note in track.notes]
+        self.notes = [*(opened.notes if opened else ()), *(note for track in tracks for note in track.notes)]
+        self._sea = build_sea(scenario, opened)
+        self.world = build_world(scenario, self._sea)
+        self._swarm = build_swarm(scenario, self.crew)
+        if self.world.coastal:
+            places = stations(self._sea.shore, scenario)
+            self._swarm.station_x[: scenario.agents], self._swarm.station_y[: scenario.agents] = places.T
+        self._radio = build_radio(scenario, self.crew, self.world, self._swarm.x.size)
         self._targets, self.tracks = build_targets(scenario, tracks)
         self._nature = build_nature(scenario, self._swarm.x.size)
         memories = Memories(
@@ -91,10 +99,10 @@ class Simulation:
         self._phases = addresses()
         self._placed = Placed(self._stage(self._new_frames(0)))
         self._looking = Placed(self._stage(self._new_frames(1)))
-        places = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
+        starts = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
         lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
         with plugin_errors():
-            _set_out(self._placed.address, places, lifetimes, losses_of(scenario))
+            _set_out(self._placed.address, starts, lifetimes, losses_of(scenario))
         self.roster = roster_of(self._swarm, scenario.agents, self.crew)
         self.begin()
         self._settle()
@@ -240,6 +248,7 @@ class Simulation:
             self._targets,
             self.tracks,
             self._nature,
+            self._sea,
             self._tally,
             self._scratch,
             frames,

@@ -85,8 +85,8 @@ def set_path(table: Table, path: str, value: Any) -> None:
             node[part] = node = _strategy_table(node[part])
         elif isinstance(node.get(part), (dict, list)):
             node = node[part]
-        elif at == 0 and part not in node and part in ("area", "network", "motion", "strategy"):
-            node = node.setdefault(part, {})
+        elif at == 0 and node.get(part) is None and part in ("area", "network", "motion", "strategy", "sea"):
+            node[part] = node = {}
         else:
             hint = did_you_mean(part, node).rstrip() or f"there are: {', '.join(node)}"
             raise ScenarioError(path, f"the scenario has no {where!r}", hint)

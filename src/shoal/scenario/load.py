@@ -20,11 +20,13 @@ from shoal.scenario.disturbances import DISTURBANCES
 from shoal.scenario.frozen import MOST_ENTRIES, plain
 from shoal.scenario.recorded import RecordedScenario, RecordedStrategy
 from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Join, Loss, Motion, Network, Scenario
+from shoal.scenario.sea import FLOWS, TAGS, Sea
 from shoal.scenario.strategy_choice import StrategyParamsError, params_model
 from shoal.scenario.targets import TARGETS
 from shoal.strategies.plugins import find_strategy, load_strategies
 
 LARGEST = 10**6  # bytes of a scenario file
+SEA_FILES = ("currents", "wind", "coast", "search_area")
 _DEPTH = "a scenario is four levels deep at most"
 MOST_TOLD = 19  # problems of a scenario beside the first
 
@@ -109,6 +111,10 @@ def read_table(source: str | PathLike[str]) -> dict[str, Any]:
     for part in (chosen, *own, *(targets if isinstance(targets, list) else ())):
         if isinstance(part, dict) and isinstance(part.get("file"), str) and part["file"]:
             part["file"] = str(folder / part["file"])
+    sea = table.get("sea")
+    for name in SEA_FILES if isinstance(sea, dict) else ():
+        if isinstance(sea.get(name), str) and sea[name]:
+            sea[name] = str(folder / sea[name])
     return table
 
 
@@ -267,6 +273,10 @@ def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tup
             f"no strategy is called {quoted(wrong)}",
             f'{hint}strategies: {", ".join(names)}; or file = "my_strategy.py"',
         )
+    if error["type"] == "union_tag_invalid" and path[0] == "sea":
+        kind = str(error["ctx"]["tag"])
+        fix = f"{did_you_mean(kind, FLOWS)}name a file, or write {{kind = ...}}: {', '.join(FLOWS)}"
+        return f"no flow is of kind {quoted(kind)}", fix
     if error["type"] == "union_tag_invalid":
         return _unknown_kind(str(error["ctx"]["tag"]), str(path[0]))
     if error["type"] == "union_tag_not_found":
@@ -294,7 +304,7 @@ def _path(loc: Sequence[Any]) -> tuple[Any, ...]:
     return tuple(
         part
         for at, part in enumerate(loc)
-        if not (at == 2 and part in _DECLARED.get(str(loc[0]), ()))
+        if not (at == 2 and part in (TAGS if loc[0] == "sea" else _DECLARED.get(str(loc[0]), ())))
         and part not in ("constrained-int", "literal['all']")
     )
 
@@ -306,7 +316,7 @@ def _dotted(path: Sequence[Any]) -> str:
 def _known_fields(path: tuple[Any, ...], table: Mapping[str, Any]) -> list[str]:
     """Names that are valid beside the last part of a path."""
     models: dict[str, Any] = {"area": Area, "fleets": Fleet, "network": Network, "motion": Motion}
-    models |= {"losses": Loss, "joins": Join}
+    models |= {"losses": Loss, "joins": Join, "sea": Sea}
     if len(path) < 2:
         return list(Scenario.model_fields)
     if "strategy" in path[:-1]:
@@ -318,6 +328,9 @@ def _known_fields(path: tuple[Any, ...], table: Mapping[str, Any]) -> list[str]:
         return list(kind.model_fields) if kind else ["kind"]
     if path[:2] == ("network", "adaptive") and len(path) > 2:
         return list(AdaptiveDegree.model_fields)
+    if path[0] == "sea" and len(path) > 2:
+        flow = FLOWS.get(str(_part_at(table, path[:2]).get("kind")))
+        return list(flow.model_fields) if flow else []
     return list(models[path[0]].model_fields) if path[0] in models else []
 
 

@@ -22,8 +22,10 @@ from shoal.scenario.choices import headline
 from shoal.scenario.disturbances import Disturbance
 from shoal.scenario.durations import Steps, with_whole_steps
 from shoal.scenario.frozen import MOST_ENTRIES, Chance, Count, Frozen, Name, NotNegative, Positive
+from shoal.scenario.sea import Sea
 from shoal.scenario.strategy_choice import StrategyChoice
 from shoal.scenario.targets import MovingTarget, Target
+from shoal.scenario.windage import Windage
 
 MOST_AGENTS = 10_000  # the engine keeps all squared distances: 800 MB
 ARENA_UNITS = 20.0  # the paper's arena measures 20 units; one is the length its figures are in
@@ -84,6 +86,9 @@ class Fleet(Frozen):
     )
     mean_lifetime: Annotated[Seconds, Positive] | None = Field(
         default=None, description="agents fail at a constant rate, after this time on average [s]; default: never"
+    )
+    windage: Windage | None = Field(
+        default=None, description="how the wind moves it: a share of its speed, or a leeway class; default: not at all"
     )
     max_acceleration: Annotated[MetersPerSecondSquared, Positive] | None = Field(
         default=None, description="largest change of velocity per second [m/s^2]; default: any"
@@ -171,6 +176,7 @@ class Scenario(Frozen):
     disturbances: tuple[Disturbance, ...] = Field(
         default=(), max_length=MOST_ENTRIES, description="what disturbs agents and targets during the run"
     )
+    sea: Sea | None = Field(default=None, description="currents, wind and land; default: still, open water")
 
     _whole_steps = model_validator(mode="before")(with_whole_steps)
 
@@ -282,12 +288,22 @@ class Scenario(Frozen):
             *content["targets"],
         ):
             part.pop("file", None)  # what a file says counts (source, digest), not where it lies
+        for name in self.sea.files if self.sea else ():
+            content["sea"][name] = "file"
         return content
 
     @property
     def hash(self) -> str:
         """16 hex digits over `choices`."""
         return hashlib.sha256(json.dumps(self.choices, sort_keys=True).encode()).hexdigest()[:16]
+
+    @model_validator(mode="after")
+    def _sea_is_somewhere(self) -> Self:
+        files = self.sea.files if self.sea else {}
+        if files and self.area.origin is None:
+            name = next(iter(files))
+            raise ValueError(f"sea.{name} is a file, but area.origin is not given; say where (0, 0) is: [lon, lat] in deg")
+        return self
 
     @model_validator(mode="after")
     def _two_agents(self) -> Self:

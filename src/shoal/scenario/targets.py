@@ -7,18 +7,27 @@ from pydantic import Field, model_validator
 from shoal.core.units import Meters, MetersPerSecond, Seconds
 from shoal.scenario.declared import models_of
 from shoal.scenario.frozen import Frozen, NotNegative, Positive
+from shoal.scenario.windage import Windage
 from shoal.world.targets.catalogue import KINDS
 from shoal.world.targets.catalogue import PROBLEMS as PROBLEMS
 
 
-class FixedTarget(Frozen):
+class FloatingTarget(Frozen):
+    """What all targets have in common."""
+
+    windage: Windage | None = Field(
+        default=None, description="how the wind moves it: a share of its speed, or a leeway class; default: not at all"
+    )
+
+
+class FixedTarget(FloatingTarget):
     """What targets have in common that do not move by a rule."""
 
     kind: str
     radius: Annotated[Meters, NotNegative] = Field(description="rho: size of the target [m]")
 
 
-class MovingTarget(Frozen):
+class MovingTarget(FloatingTarget):
     """What all targets that move by a rule have in common."""
 
     radius: Annotated[Meters, NotNegative] = Field(description="rho: size of the target [m]")
@@ -44,7 +53,7 @@ class MovingTarget(Frozen):
 def _base(kind: Any) -> type[Frozen]:
     if kind.moves:
         return MovingTarget
-    return Frozen if "radius" in get_type_hints(kind.options) else FixedTarget
+    return FloatingTarget if "radius" in get_type_hints(kind.options) else FixedTarget
 
 
 _FIRST = ("still", "waypoint", "line", "walk", "levy", "evasive", "drift", "track")  # as pages and errors list them

@@ -70,8 +70,22 @@ def decide_one(me, inbox, sums, memory, params, key, step):
 @kernel
 def _listener(me):
     """The agent as far as pairs know it: without briefing and truth, in the engine too."""
-    briefing = Briefing(0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    briefing = Briefing(0, 0.0, 0.0, 0.0, 0.0, 0.0, False, 0.0, 0.0)
     truth = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     return Own(
-        me.id, me.x, me.y, me.vx, me.vy, me.on_target, me.max_speed, me.time_step, me.time, me.fleet, briefing, truth
+        me.id,
+        me.x,
+        me.y,
+        me.vx,
+        me.vy,
+        me.on_target,
+        me.max_speed,
+        me.time_step,
+        me.time,
+        me.fleet,
+        briefing,
+        truth,
+        0.0,
+        0.0,
+        False,
     )

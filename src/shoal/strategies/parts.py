@@ -77,11 +77,11 @@ def toward(me, x, y):
 
 @kernel
 def waypoint_reached(me, x, y):
-    """Whether agent `me` can be at the waypoint (x, y) [m] within this step."""
+    """Whether agent `me` can be at the waypoint (x, y) [m] within this step, or land keeps it from there."""
     dx = x - me.x
     dy = y - me.y
     step = me.max_speed * me.time_step
-    return dx * dx + dy * dy <= step * step
+    return dx * dx + dy * dy <= step * step or me.aground
 
 
 @kernel
@@ -94,7 +94,9 @@ def inside(me, x, y):
 
 @kernel
 def own_station(me, spread):
-    """The agent's place in the most even cover of this share of the area's sides [m]."""
+    """The agent's place in the most even cover of this share of the area's sides; of the water, where it has a chart [m]."""
+    if me.briefing.charted:
+        return me.briefing.station_x, me.briefing.station_y
     return station(me.id, me.briefing.agents, spread * me.briefing.half_x, spread * me.briefing.half_y)
 
 

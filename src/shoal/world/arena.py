@@ -14,6 +14,7 @@ class World(NamedTuple):
     imperfect : sensors miss targets or report false ones
     mortal : agents are lost or join during the run
     disturbed : there are disturbances; it is imperfect and mortal then, too
+    flowing : there are currents or wind; coastal : there is land, or a limit to where agents may go
     target_radius : of the smallest target
     """
 
@@ -30,4 +31,6 @@ class World(NamedTuple):
     imperfect: bool
     mortal: bool
     disturbed: bool
+    flowing: bool
+    coastal: bool
     target_radius: float

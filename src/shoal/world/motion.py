@@ -3,6 +3,8 @@
 import math
 
 from shoal.compiler.kernel import kernel
+from shoal.world.sea.land import clearance, sailed
+from shoal.world.sea.sea import Leeway, carried, instant
 
 NO_DRIFT = -0.0  # adds nothing, not even to the sign of a zero
 
@@ -45,16 +47,26 @@ def moved(place, command, drift, clamp, time_step):
     """Advance along one axis by a time-step, Eq. 3, and stop at the wall: place [m] and velocity [m/s] after it.
 
     The displacement is the sum of what the agent commands and of what nature adds, `drift` [m]; its velocity stays the
-    one through the water. At the wall it becomes the displacement really made, at most what it commands. An agent that
-    starts outside the wall is put inside, which is not its own motion: it counts from the wall on.
+    one through the water, see `made`.
     """
     free = place + (command * time_step + drift)
     there = min(max(free, -clamp), clamp)
+    return there, made(place, command, drift, free, there, clamp, time_step)
+
+
+@kernel
+def made(place, command, drift, free, there, clamp, time_step):
+    """Velocity along one axis [m/s] of an agent that went from `place` to `there`, and had gone to `free` [m].
+
+    It is what the agent commands, through the water; where a wall or land stopped it, the displacement really made, at
+    most what it commands. An agent that starts outside the wall is put inside, which is not its own motion: it counts
+    from the wall on.
+    """
     inside = min(max(place, -clamp), clamp)
-    made = (there - inside) / time_step
+    velocity = (there - inside) / time_step
     if drift != 0.0:
-        made = min(max(made, -abs(command)), abs(command))
-    return there, command if there == free else made
+        velocity = min(max(velocity, -abs(command)), abs(command))
+    return command if there == free else velocity
 
 
 @kernel
@@ -93,6 +105,51 @@ def move_adrift(position, velocity, command, drift, clamp, time_step):
     """Move a block of agents (B,) along one axis, in place, by what they command and by a drift (B,) [m]."""
     for i in range(position.size):
         position[i], velocity[i] = moved(position[i], command[i], drift[i], clamp, time_step)
+
+
+@kernel
+def sail(swarm, effects, sea, world, number, first, last):
+    """Move agents first..last of a sea with currents, wind or land, in place, by what they command and by the drift.
+
+    effects : (L,) records of what disturbances do to each, see world/disturbances/contract.py
+    """
+    time_step = world.time_step
+    now = instant(sea, number * time_step)
+    later = instant(sea, (number + 0.5) * time_step)
+    for i in range(first, last):
+        if swarm.alive[i] == 0.0:
+            continue
+        x, y, command_x, command_y = swarm.x[i], swarm.y[i], swarm.command_x[i], swarm.command_y[i]
+        drift_x, drift_y = NO_DRIFT, NO_DRIFT
+        if world.disturbed:
+            drift_x, drift_y = effects[i].drift_x, effects[i].drift_y
+        if world.flowing:
+            wind = Leeway(swarm.leeway[i, 0], swarm.leeway[i, 1], swarm.leeway[i, 2], swarm.leeway[i, 3])
+            more_x, more_y = carried(sea, x, y, command_x, command_y, now, later, time_step, wind)
+            drift_x += more_x
+            drift_y += more_y
+        free_x = x + (command_x * time_step + drift_x)
+        free_y = y + (command_y * time_step + drift_y)
+        there_x, there_y = free_x, free_y
+        if world.coastal:
+            there_x, there_y = sailed(sea.shore, x, y, free_x, free_y)
+            swarm.aground[i] = there_x != free_x or there_y != free_y
+        there_x = min(max(there_x, -world.clamp_x), world.clamp_x)
+        there_y = min(max(there_y, -world.clamp_y), world.clamp_y)
+        if world.coastal and clearance(sea.shore, there_x, there_y) < 0.0:
+            there_x, there_y = x, y  # the wall would put it on land
+        swarm.vx[i] = made(x, command_x, drift_x, free_x, there_x, world.clamp_x, time_step)
+        swarm.vy[i] = made(y, command_y, drift_y, free_y, there_y, world.clamp_y, time_step)
+        swarm.x[i], swarm.y[i] = there_x, there_y
+        swarm.drift_x[i], swarm.drift_y[i] = drift_x / time_step, drift_y / time_step
+
+
+@kernel
+def note_drift(swarm, effects, time_step, first, last):
+    """Let agents first..last know what disturbances added to their velocities [m/s], in place."""
+    for i in range(first, last):
+        swarm.drift_x[i] = effects[i].drift_x / time_step
+        swarm.drift_y[i] = effects[i].drift_y / time_step
 
 
 @kernel

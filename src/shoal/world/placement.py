@@ -1,13 +1,15 @@
 """Where agents start, at rest."""
 
 from shoal.compiler.kernel import kernel
-from shoal.core.draws import START_STEP, split, uniform
+from shoal.core.draws import START_STEP, TARGET_STREAM, split, uniform
+from shoal.world.sea.land import afloat, anywhere_afloat, clearance
 
 PLACES = ("uniform", "center", "corner", "arena")
 _CENTER = 1
 _CORNER = 2
 _ARENA = 3
 _PLACEMENT = 1 << 20  # a purpose that no strategy draws for
+_SIDE = (1 << 20) + 1
 _CLUSTER = 0.1  # side of the cluster, as a share of the arena's
 
 
@@ -25,7 +27,7 @@ def start(where, x, y):
 
 
 @kernel
-def place(swarm, world, places, run_key):
+def place(swarm, sea, world, places, run_key):
     """Scatter agents over where they may go, or over the whole arena, as in the runs that were published.
 
     Of the latter the wall puts those outside it inside in step 1.
@@ -38,3 +40,27 @@ def place(swarm, world, places, run_key):
         x, y = start(where, 2.0 * uniform(draw, 0) - 1.0, 2.0 * uniform(draw, 1) - 1.0)
         swarm.x[i] = (world.half_x if where == _ARENA else world.clamp_x) * x
         swarm.y[i] = (world.half_y if where == _ARENA else world.clamp_y) * y
+        if world.coastal:
+            _launch(swarm, i, sea.shore, where, world, draw)
+
+
+@kernel
+def _launch(swarm, i, shore, where, world, draw):
+    """Put an agent that would start on land at sea: another place by chance, all over; else the nearest water."""
+    if clearance(shore, swarm.x[i], swarm.y[i]) > 0.0:
+        return
+    if where == _CENTER or where == _CORNER:
+        swarm.x[i], swarm.y[i] = afloat(shore, swarm.x[i], swarm.y[i])
+    else:
+        swarm.x[i], swarm.y[i] = anywhere_afloat(shore, world.clamp_x, world.clamp_y, draw)
+
+
+@kernel
+def draw_sides(swarm, targets, world, run_key):
+    """Let the wind push each to the left or the right of its own direction, by chance, half of them each."""
+    for i in range(world.agents):
+        if uniform(split(split(run_key, START_STEP), i), _SIDE) < 0.5:
+            swarm.leeway[i, 3] = -swarm.leeway[i, 3]
+    for j in range(targets.size):
+        if uniform(split(split(run_key, START_STEP), TARGET_STREAM + j), _SIDE) < 0.5:
+            targets[j].leeway_sine = -targets[j].leeway_sine

@@ -2,6 +2,7 @@
 
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import split, uniform
+from shoal.world.sea.land import in_sight
 
 _DETECTION = 1 << 21  # purposes that no strategy draws for
 _FALSE_ALARM = _DETECTION + 1
@@ -26,13 +27,13 @@ def imagines(key, false_alarm):
 
 
 @kernel
-def sense(swarm, targets, effects, world, step_key):
+def sense(swarm, targets, effects, sea, world, step_key):
     """Set on_target (f_i = -1 in the paper) of every agent within its sensor radius plus a target's radius.
 
     Kwa et al., Heterogeneous Swarms, Eq. 1. Counts the watchers of every target and returns how many agents watch any,
     which are `engaged`: false alarms set on_target, but watch nothing.
 
-    effects : (L,) records of what disturbances do to each agent, see world/disturbances/contract.py
+    effects : (L,) records of what disturbances do to each agent, see world/disturbances/contract.py; sea : its land hides
     """
     agents = world.agents
     engaged = 0
@@ -46,6 +47,8 @@ def sense(swarm, targets, effects, world, step_key):
                 dx = swarm.x[i] - target.x
                 dy = swarm.y[i] - target.y
                 sees = within_reach(dx, dy, swarm.sensor_radius[i] + target.radius) & (swarm.alive[i] > 0.0)
+                if world.coastal and sees:
+                    sees = in_sight(sea.land, swarm.x[i], swarm.y[i], target.x, target.y)
                 if world.imperfect:
                     sees &= notices(split(step_key, i), j, swarm.detection[i] * effects[i].senses)
                 swarm.on_target[i] |= sees

@@ -18,6 +18,7 @@ from shoal.core.agents import Floats
 from shoal.core.errors import PluginError
 from shoal.core.text import checked_name
 from shoal.world.assembled import refuse_wrong_arguments, refuse_wrong_fields
+from shoal.world.sea.land import Land
 from shoal.world.targets.moves import any_heading
 
 STATE: dict[str, type[Any]] = {  # what every target is doing
@@ -29,7 +30,7 @@ STATE: dict[str, type[Any]] = {  # what every target is doing
     "heading_x": float,  # of kinds that move
     "heading_y": float,
     "dive_phase": float,
-    "drift_x": float,  # what disturbances add to its next displacement [m]
+    "drift_x": float,  # what nature adds to its next displacement [m]
     "drift_y": float,
 }
 MAKE: dict[str, type[Any]] = {  # what is chosen of every target
@@ -43,6 +44,10 @@ MAKE: dict[str, type[Any]] = {  # what is chosen of every target
     "first_fix": int,  # of those that follow a recorded track
     "fixes": int,
     "max_gap": float,
+    "leeway_slope": float,  # how the wind moves it, see world/sea/sea.py's Leeway
+    "leeway_offset": float,
+    "leeway_cosine": float,
+    "leeway_sine": float,
 }
 SHARED = ("radius", "speed", "surface_time", "dive_time", "x", "y", "max_gap")  # that options of a kind may be
 
@@ -61,6 +66,7 @@ class Around(NamedTuple):
     time_step [s]; time : at the end of the step [s]
     agents : how many; x, y, alive : of each, positions [m] and 1.0, or 0.0 of one that is not there
     tracks : the fixes of recorded targets
+    shore : land, and where they may not go; see world/sea/land.py, `anywhere_afloat`
     """
 
     time_step: float
@@ -70,6 +76,7 @@ class Around(NamedTuple):
     y: Floats
     alive: Floats
     tracks: Tracks
+    shore: Land
 
 
 @kernel

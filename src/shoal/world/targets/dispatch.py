@@ -4,24 +4,57 @@ from typing import Any
 
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import uniform
+from shoal.world.sea.land import anywhere_afloat, sailed, seaward
+from shoal.world.sea.sea import Leeway, carried, instant
 from shoal.world.targets.catalogue import KINDS
 from shoal.world.targets.contract import Around
 from shoal.world.targets.dive import surface_or_dive
 
 
 @kernel
-def begin_target(target, tracks, swarm, world, draw):
+def begin_target(target, tracks, swarm, sea, world, draw):
     """Put a target where it starts, uniform in its box if it moves by a rule, and let its kind set it up."""
-    around = Around(world.time_step, 0.0, world.agents, swarm.x, swarm.y, swarm.alive, tracks)
+    around = Around(world.time_step, 0.0, world.agents, swarm.x, swarm.y, swarm.alive, tracks, sea.shore)
     _begin(target, around, draw)
 
 
 @kernel
-def advance_target(target, tracks, swarm, world, steps_done, draw):
+def advance_target(target, tracks, swarm, sea, world, steps_done, draw):
     """Move a target by one time-step; `steps_done` counts the steps completed with this one."""
     time = steps_done * world.time_step
-    _advance(target, Around(world.time_step, time, world.agents, swarm.x, swarm.y, swarm.alive, tracks), draw)
+    if world.flowing:
+        _drift(target, sea, world, steps_done - 1)
+    x, y = target.x, target.y
+    around = Around(world.time_step, time, world.agents, swarm.x, swarm.y, swarm.alive, tracks, sea.shore)
+    _advance(target, around, draw)
+    if world.coastal and target.fixes == 0:  # recorded ones went where they went
+        _stop_at_land(target, sea.shore, x, y)
     surface_or_dive(target, time)
+
+
+@kernel
+def _drift(target, sea, world, number):
+    """Let water and wind add to its next displacement; what disturbances add is there already."""
+    step = world.time_step
+    now, later = instant(sea, number * step), instant(sea, (number + 0.5) * step)
+    wind = Leeway(target.leeway_slope, target.leeway_offset, target.leeway_cosine, target.leeway_sine)
+    own_x, own_y = target.speed * target.heading_x, target.speed * target.heading_y
+    drift_x, drift_y = carried(sea, target.x, target.y, own_x, own_y, now, later, step, wind)
+    target.drift_x = drift_x + (target.drift_x if world.disturbed else 0.0)
+    target.drift_y = drift_y + (target.drift_y if world.disturbed else 0.0)
+
+
+@kernel
+def _stop_at_land(target, shore, x, y):
+    """Let it end at the shore if it ran into it, and head off from there."""
+    free_x, free_y = target.x, target.y
+    target.x, target.y = sailed(shore, x, y, free_x, free_y)
+    if target.x != free_x or target.y != free_y:
+        out_x, out_y = seaward(shore, target.x, target.y)
+        into = target.heading_x * out_x + target.heading_y * out_y
+        if into < 0.0:
+            target.heading_x -= 2.0 * into * out_x
+            target.heading_y -= 2.0 * into * out_y
 
 
 @kernel
@@ -31,10 +64,9 @@ def heading_to(target):
 
 
 @kernel
-def _place_and_begin(target, draw):
-    """Start anywhere in the box."""
-    target.x = target.half_x * (2.0 * uniform(draw, 0) - 1.0)
-    target.y = target.half_y * (2.0 * uniform(draw, 1) - 1.0)
+def _place_and_begin(target, around, draw):
+    """Start anywhere in the box where there is water."""
+    target.x, target.y = anywhere_afloat(around.shore, target.half_x, target.half_y, draw)
 
 
 @kernel
@@ -54,7 +86,7 @@ def _chained(role: str, last: Any, link: Any) -> Any:
 def _begin_link(number: int, chosen: Any, moves: bool, others: Any) -> Any:
     def begin_moving(target, around, draw):
         if target.kind == number:
-            _place_and_begin(target, draw)
+            _place_and_begin(target, around, draw)
             chosen(target, around, draw)
             _dive_anywhere(target, draw)
         else:

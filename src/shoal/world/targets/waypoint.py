@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from shoal.compiler.kernel import kernel
-from shoal.core.draws import split, uniform
+from shoal.core.draws import split
 from shoal.core.units import Degrees, Doc, Meters, Range
+from shoal.world.sea.land import anywhere_afloat
 from shoal.world.targets.contract import Target
 from shoal.world.targets.moves import go
 
@@ -23,7 +24,7 @@ class Waypoint:
 @kernel
 def begin_waypoint(target, around, draw):
     """Take a waypoint and head for it."""
-    take_waypoint(target, split(draw, 2))
+    take_waypoint(target, around, split(draw, 2))
     dx = target.waypoint_x - target.x
     dy = target.waypoint_y - target.y
     distance = math.sqrt(dx * dx + dy * dy)
@@ -57,14 +58,13 @@ def seek_waypoint(target, around, draw):
     dy = target.waypoint_y - target.y
     near = dx * dx + dy * dy < target.waypoint_reach * target.waypoint_reach
     if near or target.waypoint_age >= target.waypoint_patience:
-        take_waypoint(target, draw)
+        take_waypoint(target, around, draw)
 
 
 @kernel
-def take_waypoint(target, draw):
-    """Choose a waypoint uniform in the target's box."""
-    target.waypoint_x = target.half_x * (2.0 * uniform(draw, 0) - 1.0)
-    target.waypoint_y = target.half_y * (2.0 * uniform(draw, 1) - 1.0)
+def take_waypoint(target, around, draw):
+    """Choose a waypoint uniform in the water of the target's box."""
+    target.waypoint_x, target.waypoint_y = anywhere_afloat(around.shore, target.half_x, target.half_y, draw)
     target.waypoint_age = 0
 
 

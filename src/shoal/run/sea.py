@@ -1,0 +1,112 @@
+"""What the engine works on of a scenario's sea: fields with polynomials to their grids, land, stations."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from shoal.core.errors import ScenarioError
+from shoal.core.geodesy import Frame, near
+from shoal.scenario.at_sea import OpenSea
+from shoal.scenario.schema import Scenario
+from shoal.world.sea.field import DEGREE, GRID, Field, flow_field, still_field
+from shoal.world.sea.land import Land, no_land
+from shoal.world.sea.sea import Sea, calm_sea
+
+if TYPE_CHECKING:
+    from shoal.sea.gridded import Gridded
+
+EXACT = 0.05  # [m]: how well polynomials know where a place is on a grid
+_SAMPLES = 25  # a side, of places that they are fitted to
+
+
+def build_sea(scenario: Scenario, opened: OpenSea | None) -> Sea:
+    """The sea of a run; calm and open where the scenario has none.
+
+    Raises
+    ------
+    ScenarioError : the arena is too large for local meters
+    """
+    if scenario.sea is None or opened is None:
+        return calm_sea()
+    half = max(scenario.area.width, scenario.area.height) / 2
+    currents = _field(scenario.sea.currents, opened.currents, opened.frame, half)
+    wind = _field(scenario.sea.wind, opened.wind, opened.frame, half)
+    return Sea(currents, wind, _land(opened.land), _land(opened.shore))
+
+
+def _land(raster: Any) -> Land:
+    if raster is None:
+        return no_land()
+    return Land(np.ascontiguousarray(raster.distance, np.float32), float(raster.x0), float(raster.y0), float(raster.cell))
+
+
+def _field(chosen: Any, read: "Gridded | None", frame: Frame | None, half: float) -> Field:
+    if read is None:
+        return still_field() if chosen is None else flow_field(chosen.kind, chosen.numbers())
+    size = 1.1 * half  # what leaves the arena a little, such as a target, is still known
+    degree, coefficients = _to_axes(read, frame, size)
+    return still_field()._replace(
+        kind=GRID,
+        values=np.ascontiguousarray(np.stack((read.u, read.v), axis=-1), np.float32),
+        times=np.ascontiguousarray(read.time, np.float64),
+        first=np.ascontiguousarray(read.first, np.float64),
+        second=np.ascontiguousarray(read.second, np.float64),
+        first_step=_even(read.first),
+        second_step=_even(read.second),
+        degree=degree,
+        coefficients=coefficients,
+        size=size,
+    )
+
+
+def _even(axis: Any) -> float:
+    """The distance between nodes, where it is always the same but for rounding; else 0."""
+    steps = np.diff(axis)
+    if not steps.size:
+        return 0.0
+    step = float(steps.mean())
+    drift = np.abs(axis - (axis[0] + step * np.arange(axis.size))).max()
+    return step if drift < 1e-4 * step else 0.0
+
+
+def _to_axes(read: "Gridded", frame: Frame | None, size: float) -> tuple[int, Any]:
+    """Degree and coefficients (C, 2) of the polynomials that give longitude and latitude of local x and y.
+
+    The lowest degree that is exact to EXACT at places between those that it is fitted to.
+
+    Raises
+    ------
+    ScenarioError : none is
+    """
+    if read.metric or frame is None:
+        return 1, np.array([[0.0, 0.0], [0.0, size], [size, 0.0]])  # 1, y, x
+    places, between = _places(_SAMPLES), _places(_SAMPLES + 6)
+    wanted, true = (_geographic(frame, each, size) for each in (places, between))
+    meters = np.array([111320.0 * np.cos(np.radians(frame.origin[1])), 111320.0])  # of a degree, about
+    for degree in range(1, DEGREE + 1):
+        coefficients = np.linalg.lstsq(_powers(places, degree), wanted, rcond=None)[0]
+        worst = np.abs((_powers(between, degree) @ coefficients - true) * meters).max()
+        if worst < EXACT:
+            return degree, coefficients
+    raise ScenarioError(
+        "area",
+        f"of {2 * size / 1.1e3:,.0f} km is too large for gridded data at this latitude: "
+        f"places would be wrong by {worst:.3g} m",
+        "make it smaller",
+    )
+
+
+def _places(count: int) -> Any:
+    side = np.linspace(-1.0, 1.0, count)
+    return np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)
+
+
+def _geographic(frame: Frame, places: Any, size: float) -> Any:
+    lon, lat = frame.geographic(size * places[:, 0], size * places[:, 1])
+    return np.stack((near(lon, frame.origin[0]), lat), axis=-1)
+
+
+def _powers(places: Any, degree: int) -> Any:
+    """x^i y^j, by i and then j, i + j <= degree: the order in which kernels read them."""
+    x, y = places[:, 0], places[:, 1]
+    return np.stack([x**i * y**j for i in range(degree + 1) for j in range(degree - i + 1)], axis=-1)

@@ -1,0 +1,129 @@
+"""Read the files that a scenario's sea names: what it is made of, in the local frame."""
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from shoal.core.errors import ScenarioError
+from shoal.core.geodesy import Frame
+from shoal.scenario.schema import Scenario
+
+if TYPE_CHECKING:
+    from shoal.sea.gridded import Gridded
+    from shoal.sea.raster import Raster
+
+
+@dataclass(frozen=True)
+class OpenSea:
+    """What a scenario's files hold.
+
+    Attributes
+    ----------
+    frame : the local frame, None where the area has no origin
+    currents, wind : on their grids; None where a flow has a formula, or there is none
+    land : signed distances to the shore; None on open water
+    shore : the same, of land and of all that is outside the search area
+    notes : what was assumed or dropped
+    digest : of all that was read from files; None if there were none
+    """
+
+    frame: Frame | None
+    currents: "Gridded | None"
+    wind: "Gridded | None"
+    land: "Raster | None"
+    shore: "Raster | None"
+    notes: tuple[str, ...]
+    digest: str | None
+
+
+def open_sea(scenario: Scenario) -> OpenSea | None:
+    """Read what the sea of a scenario names; None where it has none.
+
+    Raises
+    ------
+    SeaError : a file cannot be used, or does not cover the arena for as long as the run lasts
+    ScenarioError : it does not hold what the scenario was made with
+    MissingExtraError : a library is needed and absent
+    """
+    sea = scenario.sea
+    if sea is None:
+        return None
+    stamps = [(str(Path(file).absolute()), *_stamp(file)) for _, file in sorted(sea.files.items())]
+    duration = scenario.steps * scenario.time_step
+    key = (sea.model_dump_json(exclude={"digest"}), *stamps, scenario.area.model_dump_json(), duration)
+    if key not in _KEPT:
+        while len(_KEPT) > 3:
+            _KEPT.pop(next(iter(_KEPT)))
+        _KEPT[key] = _read(scenario)
+    opened = _KEPT[key]
+    if sea.digest not in (None, opened.digest):
+        raise ScenarioError(
+            "sea", "its files do not hold what this scenario was made with", "restore them, or drop sea.digest"
+        )
+    return opened
+
+
+_KEPT: dict[tuple[Any, ...], OpenSea] = {}  # read once for all runs of a process
+
+
+def _stamp(file: str) -> tuple[int, int]:
+    """When a file was changed last, and its size: one that changes is read anew."""
+    try:
+        found = Path(file).stat()
+    except OSError:
+        return 0, 0
+    return found.st_mtime_ns, found.st_size
+
+
+def _read(scenario: Scenario) -> OpenSea:
+    sea, area = scenario.sea, scenario.area
+    assert sea is not None
+    half_x, half_y = area.width / 2, area.height / 2
+    frame = Frame(area.origin) if area.origin else None
+    notes: list[str] = []
+    digests: list[str] = []
+
+    def gridded(name: str) -> "Gridded | None":
+        file = getattr(sea, name)
+        if not isinstance(file, str):
+            return None
+        from shoal.sea.gridded import read_gridded
+
+        read = read_gridded(file, name, frame, half_x, half_y, sea.start, scenario.steps * scenario.time_step)
+        notes.extend(read.notes)
+        digests.append(read.digest)
+        return read
+
+    currents, wind = gridded("currents"), gridded("wind")
+    coast = _polygons(sea.coast, frame, half_x, half_y, notes, digests)
+    limits = _polygons(sea.search_area, frame, half_x, half_y, notes, digests)
+    from shoal.sea.raster import land_raster
+
+    without = None if coast is not None or currents is None or not currents.land.any() else currents
+    land = shore = None
+    if coast or without is not None:
+        land = shore = land_raster(coast, without, frame, half_x, half_y, sea.cell)
+    if limits is not None:
+        shore = land_raster(coast, without, frame, half_x, half_y, sea.cell, limits)
+    digest = hashlib.sha256("".join(digests).encode()).hexdigest()[:16] if digests else None
+    return OpenSea(frame, currents, wind, land, shore, tuple(notes), digest)
+
+
+def _polygons(
+    chosen: Any, frame: Frame | None, half_x: float, half_y: float, notes: list[str], digests: list[str]
+) -> list[Any] | None:
+    """Land or a search area as polygons in local meters, [(shell, holes), ...]; None where nothing is said."""
+    if chosen is None:
+        return None
+    if not isinstance(chosen, str):
+        return [(np.asarray(corners, np.float64), []) for corners in chosen]
+    from shoal.sea.coast import read_coast
+
+    assert frame is not None  # the scenario insists on an origin where there are files
+    coast = read_coast(chosen, frame, half_x, half_y)
+    notes.extend(coast.notes)
+    digests.append(coast.digest)
+    return list(coast.polygons)

@@ -1,0 +1,149 @@
+"""Land as a raster of signed distances to the shore: it stops what moves, and hides what is behind it."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.compiler.kernel import kernel
+from shoal.core.draws import split, uniform
+
+OPEN_WATER = 1e6  # [m] to the shore where there is none
+_TRIES = 64  # random places, before the nearest water is taken
+_REDRAWN = 1 << 22  # a purpose that nothing else draws for
+
+
+class Land(NamedTuple):
+    """Distance to the shore at the middles of square cells.
+
+    distance : (J, I) [m], above 0 at sea, below on land; x, y : of the middle of cell (0, 0) [m]; cell : its side [m]
+    """
+
+    distance: npt.NDArray[np.float32]
+    x: float
+    y: float
+    cell: float
+
+
+def no_land() -> Land:
+    """Water everywhere."""
+    return Land(np.full((1, 1), OPEN_WATER, np.float32), 0.0, 0.0, 1.0)
+
+
+@kernel
+def clearance(land, x, y):
+    """Distance to the shore [m], below 0 on land: bilinear between the middles of cells."""
+    rows, columns = land.distance.shape
+    a = min(max((x - land.x) / land.cell, 0.0), columns - 1.0)
+    b = min(max((y - land.y) / land.cell, 0.0), rows - 1.0)
+    i = min(int(a), columns - 2) if columns > 1 else 0
+    j = min(int(b), rows - 2) if rows > 1 else 0
+    right, up = min(i + 1, columns - 1), min(j + 1, rows - 1)
+    low = land.distance[j, i] + (a - i) * (land.distance[j, right] - land.distance[j, i])
+    high = land.distance[up, i] + (a - i) * (land.distance[up, right] - land.distance[up, i])
+    return low + (b - j) * (high - low)
+
+
+@kernel
+def seaward(land, x, y):
+    """The direction, of length 1, in which the distance to the shore grows fastest; (0, 0) where it grows nowhere."""
+    half = 0.5 * land.cell
+    dx = clearance(land, x + half, y) - clearance(land, x - half, y)
+    dy = clearance(land, x, y + half) - clearance(land, x, y - half)
+    size = math.sqrt(dx * dx + dy * dy)
+    return (dx / size, dy / size) if size > 0.0 else (0.0, 0.0)
+
+
+@kernel
+def sailed(land, x, y, to_x, to_y):
+    """Where something ends [m] that sets out from (x, y) for (to_x, to_y): land stops it, and it slides along."""
+    dx = to_x - x
+    dy = to_y - y
+    length = math.sqrt(dx * dx + dy * dy)
+    if clearance(land, x, y) > length + land.cell:
+        return to_x, to_y
+    pieces = int(2.0 * length / land.cell) + 1  # of half a cell: nothing is jumped over
+    dx /= pieces
+    dy /= pieces
+    for _ in range(pieces):
+        next_x, next_y = _off_land(land, x + dx, y + dy)
+        if clearance(land, next_x, next_y) < 0.0:
+            break
+        x, y = next_x, next_y
+    return x, y
+
+
+@kernel
+def _off_land(land, x, y):
+    """The place itself, or one at the shore nearby."""
+    for _ in range(3):
+        depth = clearance(land, x, y)
+        if depth >= 0.0:
+            break
+        out_x, out_y = seaward(land, x, y)
+        x += (1e-3 * land.cell - depth) * out_x
+        y += (1e-3 * land.cell - depth) * out_y
+    return x, y
+
+
+@kernel
+def in_sight(land, x, y, other_x, other_y):
+    """Whether no land lies between two places [m]. Cheap where both are far from the shore."""
+    dx = other_x - x
+    dy = other_y - y
+    distance = math.sqrt(dx * dx + dy * dy)
+    seen = max(clearance(land, x, y), 0.0)
+    if seen + max(clearance(land, other_x, other_y), 0.0) >= distance:
+        return True
+    while seen < distance:
+        share = seen / distance
+        free = clearance(land, x + share * dx, y + share * dy)
+        if free < 0.0:
+            return False
+        seen += max(free, 0.5 * land.cell)
+    return True
+
+
+@kernel
+def anywhere_afloat(land, half_x, half_y, draw):
+    """A place at sea, by chance, uniform in +- half_x, half_y [m]; on open water what draws 0 and 1 alone say."""
+    x = half_x * (2.0 * uniform(draw, 0) - 1.0)
+    y = half_y * (2.0 * uniform(draw, 1) - 1.0)
+    again = split(draw, _REDRAWN)
+    for attempt in range(_TRIES):
+        if clearance(land, x, y) > 0.0:
+            return x, y
+        x = half_x * (2.0 * uniform(again, 2 * attempt) - 1.0)
+        y = half_y * (2.0 * uniform(again, 2 * attempt + 1) - 1.0)
+    return afloat(land, x, y)
+
+
+@kernel
+def afloat(land, x, y):
+    """The place itself, or the water that is nearest: rings of growing size are tried, a cell wider each."""
+    if clearance(land, x, y) > 0.0:
+        return x, y
+    rows, columns = land.distance.shape
+    for ring in range(1, rows + columns):
+        found_x, found_y, most = x, y, 0.0
+        for spoke in range(8 * ring):
+            angle = 2.0 * math.pi * spoke / (8 * ring)
+            there_x = x + ring * land.cell * math.cos(angle)
+            there_y = y + ring * land.cell * math.sin(angle)
+            if _within(land, there_x, there_y):
+                free = clearance(land, there_x, there_y)
+                if free > most:
+                    found_x, found_y, most = there_x, there_y, free
+        if most > 0.0:
+            return found_x, found_y
+    return x, y
+
+
+@kernel
+def _within(land, x, y):
+    """Whether a place is on the raster, a cell off its edge: beyond the arena nobody goes."""
+    rows, columns = land.distance.shape
+    a = (x - land.x) / land.cell
+    b = (y - land.y) / land.cell
+    return 1.0 <= a <= columns - 2.0 and 1.0 <= b <= rows - 2.0

@@ -1,0 +1,74 @@
+"""The sea of a run: currents, wind, land; and what water and wind do to whatever floats in it."""
+
+import math
+from typing import NamedTuple
+
+from shoal.compiler.kernel import kernel
+from shoal.world.sea.field import Field, Moment, moment, still_field, velocity
+from shoal.world.sea.land import Land, no_land
+
+LONG_STEP = 10.0  # [s]: from here on the drift is that at the middle of the step
+
+
+class Sea(NamedTuple):
+    """Currents [m/s], wind [m/s], land, which hides, and `shore`: land, and where agents and targets may not go."""
+
+    currents: Field
+    wind: Field
+    land: Land
+    shore: Land
+
+
+class Leeway(NamedTuple):
+    """How the wind moves something: downwind by slope x wind speed + offset [m/s], at an angle (its cosine and sine)."""
+
+    slope: float
+    offset: float
+    cosine: float
+    sine: float
+
+
+def calm_sea() -> Sea:
+    """No current, no wind, no land."""
+    return Sea(still_field(), still_field(), no_land(), no_land())
+
+
+class Instant(NamedTuple):
+    """A time, in the currents and in the wind."""
+
+    currents: Moment
+    wind: Moment
+
+
+@kernel
+def instant(sea, time):
+    """Find a time [s since the start] in both."""
+    return Instant(moment(sea.currents, time), moment(sea.wind, time))
+
+
+@kernel
+def carried(sea, x, y, own_x, own_y, now, later, time_step, leeway):
+    """How far water and wind carry something in a step, along x and y [m].
+
+    x, y : where it is [m]; own_x, own_y : its own velocity [m/s]; now, later : at the start and half a step later. Where
+    the step is long, the midpoint rule: the velocity where it is half a step later, then (Runge and Kutta's of order 2);
+    else Euler's.
+    """
+    drift_x, drift_y = drift_velocity(sea, x, y, now, leeway)
+    if time_step > LONG_STEP:
+        half = 0.5 * time_step
+        drift_x, drift_y = drift_velocity(sea, x + half * (own_x + drift_x), y + half * (own_y + drift_y), later, leeway)
+    return drift_x * time_step, drift_y * time_step
+
+
+@kernel
+def drift_velocity(sea, x, y, now, leeway):
+    """Velocity of what drifts at a place and an Instant: the current's, and the leeway that the wind makes [m/s]."""
+    drift_x, drift_y = velocity(sea.currents, x, y, now.currents)
+    if leeway.slope != 0.0 or leeway.offset != 0.0:
+        wind_x, wind_y = velocity(sea.wind, x, y, now.wind)
+        speed = math.sqrt(wind_x * wind_x + wind_y * wind_y)
+        share = leeway.slope + (leeway.offset / speed if speed > 0.0 else 0.0)
+        drift_x += share * (leeway.cosine * wind_x - leeway.sine * wind_y)
+        drift_y += share * (leeway.sine * wind_x + leeway.cosine * wind_y)
+    return drift_x, drift_y
