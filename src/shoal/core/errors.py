@@ -33,6 +33,10 @@ class TrackError(ShoalError):
     """A recorded track that cannot be used."""
 
 
+class SeaError(ShoalError):
+    """Currents, wind, a coast or a search area that cannot be used."""
+
+
 class StrategyError(ShoalError):
     """A strategy that cannot be found, loaded or compiled."""
 
