@@ -34,7 +34,7 @@ class TrackError(ShoalError):
 
 
 class SeaError(ShoalError):
-    """A file of currents, wind or coast that cannot be used."""
+    """Currents, wind, a coast or a search area that cannot be used."""
 
 
 class StrategyError(ShoalError):

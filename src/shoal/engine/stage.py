@@ -82,7 +82,9 @@ class Run(NamedTuple):
     steps: int
 
 
-WORLD, SWARM, RADIO, TARGETS, TRACKS, NATURE, SEA, TALLY, SCRATCH, FRAMES, PHASES, RUN = range(12)  # fields, for kernels
+WORLD, SWARM, RADIO, TARGETS, TRACKS, NATURE, SEA, TALLY, SCRATCH, FRAMES, PHASES, RUN = range(
+    12
+)  # fields, for kernels
 
 
 class Stage(NamedTuple):

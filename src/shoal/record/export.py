@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from shoal.core.errors import MissingExtraError, RecordError
 from shoal.core.files import AtomicFolder, atomic_file
+from shoal.core.geodesy import FLATTENING, RADIUS, Frame
 from shoal.metrics.heading_bearing import CENTERS, fleet_stationary, phi_histogram
 from shoal.metrics.summary import METRICS, evaluate
 from shoal.metrics.velocity_fluctuation import fleet_fluctuation
@@ -283,15 +284,15 @@ def _origin(record: "Record") -> tuple[float, float] | None:
 
 
 def _grid_mapping(lon: float, lat: float) -> Variable:
-    """The projection of recorded tracks, see tracks.ground."""
+    """The projection of recorded tracks, see core.geodesy."""
     attributes = {
         "grid_mapping_name": "azimuthal_equidistant",
         "longitude_of_projection_origin": lon,
         "latitude_of_projection_origin": lat,
         "false_easting": 0.0,
         "false_northing": 0.0,
-        "semi_major_axis": 6378137.0,
-        "inverse_flattening": 298.257223563,
+        "semi_major_axis": RADIUS,
+        "inverse_flattening": 1.0 / FLATTENING,
         "long_name": "local meters around the center of the arena (WGS 84)",
     }
     return ((), np.int32(0), attributes)
@@ -303,20 +304,18 @@ def _geographic(record: "Record", stack: _Stack) -> dict[str, Variable]:
     if origin is None:
         return {}
     try:
-        import pyproj
-    except ImportError:
+        frame = Frame(origin)
+    except MissingExtraError:
         return {}
-    local = pyproj.Proj(proj="aeqd", ellps="WGS84", lon_0=origin[0], lat_0=origin[1])
     variables: dict[str, Variable] = {}
     for dimension, prefix, who in (("trajectory", "", "agent"), ("target", "target_", "target")):
-        lon, lat = local(stack.floats(f"{prefix}x"), stack.floats(f"{prefix}y"), inverse=True)
+        lon, lat = frame.geographic(stack.floats(f"{prefix}x"), stack.floats(f"{prefix}y"))
         for name, long_name, unit, values in (
             ("lon", "longitude", "degrees_east", lon),
             ("lat", "latitude", "degrees_north", lat),
         ):
             attributes = {"standard_name": long_name, "units": unit, "long_name": f"{long_name} of the {who}"}
-            gaps = np.where(np.isfinite(values), values, np.nan)  # PROJ answers NaN with infinity
-            variables[prefix + name] = ((dimension, "obs"), gaps, attributes)
+            variables[prefix + name] = ((dimension, "obs"), values, attributes)
     return variables
 
 

@@ -37,7 +37,9 @@ def build_sea(scenario: Scenario, opened: OpenSea | None) -> Sea:
 def _land(raster: Any) -> Land:
     if raster is None:
         return no_land()
-    return Land(np.ascontiguousarray(raster.distance, np.float32), float(raster.x0), float(raster.y0), float(raster.cell))
+    return Land(
+        np.ascontiguousarray(raster.distance, np.float32), float(raster.x0), float(raster.y0), float(raster.cell)
+    )
 
 
 def _field(chosen: Any, read: "Gridded | None", frame: Frame | None, half: float) -> Field:

@@ -302,7 +302,9 @@ class Scenario(Frozen):
         files = self.sea.files if self.sea else {}
         if files and self.area.origin is None:
             name = next(iter(files))
-            raise ValueError(f"sea.{name} is a file, but area.origin is not given; say where (0, 0) is: [lon, lat] in deg")
+            raise ValueError(
+                f"sea.{name} is a file, but area.origin is not given; say where (0, 0) is: [lon, lat] in deg"
+            )
         return self
 
     @model_validator(mode="after")

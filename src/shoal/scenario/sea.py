@@ -57,7 +57,7 @@ class TideFlow(Frozen):
 
 
 class GyreFlow(Frozen):
-    """A closed gyre in a square, psi = U L / pi sin(pi x / L) sin(pi y / L): still at its middle and beyond its sides."""
+    """A closed gyre in a square, psi = U L / pi sin(pi x / L) sin(pi y / L); no flow beyond its sides."""
 
     kind: Literal["gyre"]
     speed: MetersPerSecond = Field(description="U: largest, at the middle of each side; counterclockwise [m/s]")
@@ -133,7 +133,8 @@ def _corners(polygons: Polygons) -> Polygons:
 
 
 Shore = Annotated[
-    Annotated[FileName, Tag("file")] | Annotated[Polygons, Tag("polygons"), Field(min_length=1), AfterValidator(_corners)],
+    Annotated[FileName, Tag("file")]
+    | Annotated[Polygons, Tag("polygons"), Field(min_length=1), AfterValidator(_corners)],
     Discriminator(lambda value: "file" if isinstance(value, str) else "polygons"),
 ]
 TAGS = ("file", "polygons", *FLOWS)  # of the unions above, in where pydantic says that errors are
@@ -149,7 +150,9 @@ def _moment(value: Any) -> Any:
     if not isinstance(value, datetime):
         raise ValueError(f"{quoted(value)} is no time; write 2015-11-16T06:00:00Z")
     if value.tzinfo is None:
-        raise ValueError(f"{value.isoformat()} does not say which clock; write a Z for UTC, or an offset such as +01:00")
+        raise ValueError(
+            f"{value.isoformat()} does not say which clock; write a Z for UTC, or an offset such as +01:00"
+        )
     return value
 
 
@@ -162,10 +165,12 @@ class Sea(Frozen):
     currents: Flow | None = Field(default=None, description="a NetCDF file, or a flow; default: still water")
     wind: Flow | None = Field(default=None, description="a NetCDF file, or a flow; default: no wind")
     coast: Shore | None = Field(
-        default=None, description="land: a GeoJSON file, or polygons of [x, y] [m]; default: none, or where currents end"
+        default=None,
+        description="land: a GeoJSON file, or polygons of [x, y] [m]; default: none, or where currents end",
     )
     search_area: Shore | None = Field(
-        default=None, description="polygons that agents and targets stay in: a GeoJSON file, or [x, y] [m]; default: the arena"
+        default=None,
+        description="polygons that agents and targets stay in: a GeoJSON file, or [x, y] [m]; default: the arena",
     )
     cell: Annotated[Meters, Positive] | None = Field(
         default=None, description="of the raster of land [m]; default: by the size of the arena"
@@ -178,7 +183,9 @@ class Sea(Frozen):
     def _files_have_a_start(self) -> Self:
         for name in ("currents", "wind"):
             if isinstance(getattr(self, name), str) and self.start is None:
-                raise ValueError(f"{name} is a file, but start is not given; say when the run begins: 2015-11-16T06:00:00Z")
+                raise ValueError(
+                    f"{name} is a file, but start is not given; say when the run begins: 2015-11-16T06:00:00Z"
+                )
         return self
 
     @property

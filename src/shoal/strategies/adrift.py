@@ -1,4 +1,4 @@
-"""Adrift: wants no velocity, so that water and wind alone move it, as they move a drifter, a buoy without its engine."""
+"""Adrift: wants no velocity, so that water and wind alone move it, as they move a drifter."""
 
 from typing import NamedTuple
 

@@ -94,7 +94,7 @@ def inside(me, x, y):
 
 @kernel
 def own_station(me, spread):
-    """The agent's place in the most even cover of this share of the area's sides; of the water, where it has a chart [m]."""
+    """The agent's place in the most even cover of this share of the area's sides, or of the water on its chart [m]."""
     if me.briefing.charted:
         return me.briefing.station_x, me.briefing.station_y
     return station(me.id, me.briefing.agents, spread * me.briefing.half_x, spread * me.briefing.half_y)

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from shoal.core.errors import MissingExtraError, TrackError
+from shoal.core.errors import TrackError
+from shoal.core.geodesy import ECCENTRICITY_SQUARED, Frame, radii
 from shoal.tracks.table import Fixes
 
-RADIUS, FLATTENING = 6378137.0, 1 / 298.257223563  # WGS84 [m], [-]
 MEAN_RADIUS = 6.371e6  # [m]
 QUARTER_OF_EARTH = 1e7  # [m] from pole to equator
 NEAR = 1e6  # [m] up to here local meters are right within 0.5 %
@@ -19,13 +19,12 @@ NEAR = 1e6  # [m] up to here local meters are right within 0.5 %
 def points(fixes: Fixes) -> NDArray[np.float64]:
     """Return where the fixes lie in space, (F, 3) [m] from the center of the Earth."""
     lat, lon = np.radians(fixes.lat), np.radians(fixes.lon)
-    squared = FLATTENING * (2.0 - FLATTENING)
-    normal = RADIUS / np.sqrt(1.0 - squared * np.sin(lat) ** 2)
+    _, normal = radii(fixes.lat)
     return np.stack(
         (
             normal * np.cos(lat) * np.cos(lon),
             normal * np.cos(lat) * np.sin(lon),
-            normal * (1.0 - squared) * np.sin(lat),
+            normal * (1.0 - ECCENTRICITY_SQUARED) * np.sin(lat),
         ),
         axis=-1,
     )
@@ -58,8 +57,7 @@ def project(path: Path, fixes: Fixes, origin: tuple[float, float]) -> tuple[NDAr
     TrackError : a fix lies farther off than a quarter of the Earth
     MissingExtraError : pyproj is not installed
     """
-    local = pyproj().Proj(proj="aeqd", ellps="WGS84", lon_0=origin[0], lat_0=origin[1])
-    x, y = local(fixes.lon, fixes.lat)
+    x, y = Frame(origin).local(fixes.lon, fixes.lat)
     farthest = np.hypot(x, y).max()
     if not farthest < QUARTER_OF_EARTH:
         raise TrackError(
@@ -81,20 +79,6 @@ def note_distance(x: NDArray[np.float64], y: NDArray[np.float64]) -> list[str]:
         f"The track reaches {farthest / 1e3:.0f} km from its origin, where local meters are "
         f"up to {angle / math.sin(angle) - 1.0:.1%} too long."
     ]
-
-
-def pyproj() -> Any:
-    """Return the library.
-
-    Raises
-    ------
-    MissingExtraError : it is not installed
-    """
-    try:
-        import pyproj as library
-    except ImportError as error:
-        raise MissingExtraError.of("pyproj", "maritime", "projecting a track to meters") from error
-    return library
 
 
 def _millimeters(values: NDArray[np.float64]) -> NDArray[np.float64]:

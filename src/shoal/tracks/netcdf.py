@@ -2,16 +2,16 @@
 
 import warnings
 from collections.abc import Sequence
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from shoal.core.cf_time import unix_of
+from shoal.core.crash import is_safe
 from shoal.core.errors import MissingExtraError, ShoalError, TrackError
 from shoal.tracks import names
-from shoal.tracks.crash import is_safe
 from shoal.tracks.names import LAT_NAMES, LON_NAMES, TIME_NAMES
 from shoal.tracks.table import Table, comparable, labels
 from shoal.tracks.wanted import Wanted
@@ -20,12 +20,6 @@ if TYPE_CHECKING:
     import netCDF4
 
 ROW_SIZE_NAMES = ("row_size", "rowsize")
-SECONDS = {
-    "nanosecond": 1e-9, "ns": 1e-9, "microsecond": 1e-6, "us": 1e-6, "millisecond": 1e-3,
-    "ms": 1e-3, "second": 1.0, "sec": 1.0, "s": 1.0, "minute": 60.0, "min": 60.0,
-    "hour": 3600.0, "hr": 3600.0, "h": 3600.0, "day": 86400.0, "d": 86400.0,
-}  # fmt: skip
-REAL_CALENDARS = ("standard", "gregorian", "proleptic_gregorian")
 
 
 def netcdf_table(path: Path, wanted: Wanted) -> Table:
@@ -59,7 +53,7 @@ def _trajectories(path: Path, netcdf4: Any, dataset: "netCDF4.Dataset", wanted: 
     lon = _variable(path, dataset, "longitude", LON_NAMES, ("degree_east", "degrees_east"))
     time = _variable(path, dataset, "time", TIME_NAMES, (" since ",))
     _check_dimensions(path, lat, lon, time)
-    values = (_decoded_time(path, netcdf4, time), lat[...], lon[...])
+    values = (_decoded_time(path, time), lat[...], lon[...])
     if lat.ndim == 1:
         owner, dimension = _ragged_owner(path, dataset, lat)
     else:
@@ -117,32 +111,12 @@ def _check_dimensions(path: Path, lat: Any, lon: Any, time: Any) -> None:
         )
 
 
-def _decoded_time(path: Path, netcdf4: Any, variable: Any) -> Any:
+def _decoded_time(path: Path, variable: Any) -> Any:
     """Unix time [s], masked where missing."""
-    units, calendar = _text(variable, "units"), _text(variable, "calendar") or "standard"
-    word, _, reference = units.partition(" since ")
-    word = word.strip().lower()
-    scale = SECONDS.get(word, SECONDS.get(word.removesuffix("s")))
-    if scale is None or not reference or calendar.lower() not in REAL_CALENDARS:
-        raise TrackError(
-            f"{path} {variable.name}",
-            f"units {units!r} in calendar {calendar!r} is not a time that was recorded",
-            "use units such as 'seconds since 1970-01-01' and the standard calendar",
-        )
-    seconds = np.ma.masked_invalid(variable[...].astype(np.float64)) * scale
-    if not seconds.count():
-        return seconds
-    first = float(seconds.compressed()[0])
     try:
-        date = netcdf4.num2date(first, f"seconds since {reference}", calendar)
-        moment = datetime.fromisoformat(date.isoformat()).replace(tzinfo=UTC)
-    except (ValueError, OverflowError) as error:
-        raise TrackError(
-            f"{path} {variable.name}",
-            f"{first:g} s since {reference!r} cannot be read ({error})",
-            "use units such as 'seconds since 1970-01-01' and times in the years 1 to 9999",
-        ) from error
-    return moment.timestamp() + (seconds - first)
+        return unix_of(variable[...], _text(variable, "units"), _text(variable, "calendar"))
+    except ValueError as error:
+        raise TrackError(f"{path} {variable.name}", *error.args) from error
 
 
 def _ragged_owner(path: Path, dataset: "netCDF4.Dataset", lat: Any) -> tuple[NDArray[np.intp] | None, str]:

@@ -49,7 +49,7 @@ def _launch(swarm, i, shore, where, world, draw):
     """Put an agent that would start on land at sea: another place by chance, all over; else the nearest water."""
     if clearance(shore, swarm.x[i], swarm.y[i]) > 0.0:
         return
-    if where == _CENTER or where == _CORNER:
+    if where in (_CENTER, _CORNER):
         swarm.x[i], swarm.y[i] = afloat(shore, swarm.x[i], swarm.y[i])
     else:
         swarm.x[i], swarm.y[i] = anywhere_afloat(shore, world.clamp_x, world.clamp_y, draw)

@@ -33,7 +33,8 @@ def sense(swarm, targets, effects, sea, world, step_key):
     Kwa et al., Heterogeneous Swarms, Eq. 1. Counts the watchers of every target and returns how many agents watch any,
     which are `engaged`: false alarms set on_target, but watch nothing.
 
-    effects : (L,) records of what disturbances do to each agent, see world/disturbances/contract.py; sea : its land hides
+    effects : (L,) records of what disturbances do to each agent, see world/disturbances/contract.py
+    sea : its land hides targets
     """
     agents = world.agents
     engaged = 0

@@ -35,7 +35,7 @@ def tide(numbers, x, y, time):
 
 @kernel
 def gyre(numbers, x, y):
-    """A closed gyre in a box, the flow of psi = U L / pi sin(pi x / L) sin(pi y / L): fastest, U, at the sides' middles.
+    """A closed gyre in a box, psi = U L / pi sin(pi x / L) sin(pi y / L): fastest, U, at the middles of its sides.
 
     numbers : U [m/s], side L [m], center x, y [m]; counterclockwise where U > 0. Still outside of the box.
     """
@@ -53,7 +53,7 @@ def gyre(numbers, x, y):
 def eddy(numbers, x, y, time):
     """A Gaussian vortex that moves: speed U at its radius R, U (r / R) exp((1 - r^2 / R^2) / 2) around its center.
 
-    numbers : U [m/s], R [m], center at the start x, y [m], velocity of the center x, y [m/s]; counterclockwise for U > 0
+    numbers : U [m/s], R [m], center at the start x, y [m], its velocity x, y [m/s]; counterclockwise where U > 0
     """
     radius = numbers[1]
     dx = (x - numbers[2] - numbers[4] * time) / radius

@@ -20,7 +20,7 @@ class Sea(NamedTuple):
 
 
 class Leeway(NamedTuple):
-    """How the wind moves something: downwind by slope x wind speed + offset [m/s], at an angle (its cosine and sine)."""
+    """How the wind moves something: slope x wind speed + offset [m/s], at an angle to it (cosine and sine)."""
 
     slope: float
     offset: float
@@ -50,14 +50,15 @@ def instant(sea, time):
 def carried(sea, x, y, own_x, own_y, now, later, time_step, leeway):
     """How far water and wind carry something in a step, along x and y [m].
 
-    x, y : where it is [m]; own_x, own_y : its own velocity [m/s]; now, later : at the start and half a step later. Where
-    the step is long, the midpoint rule: the velocity where it is half a step later, then (Runge and Kutta's of order 2);
-    else Euler's.
+    x, y : where it is [m]; own_x, own_y : its own velocity [m/s]; now, later : the start, and half a step later. Where
+    the step is long, by the velocity where it is half a step later (the midpoint rule); else by that at the start.
     """
     drift_x, drift_y = drift_velocity(sea, x, y, now, leeway)
     if time_step > LONG_STEP:
         half = 0.5 * time_step
-        drift_x, drift_y = drift_velocity(sea, x + half * (own_x + drift_x), y + half * (own_y + drift_y), later, leeway)
+        drift_x, drift_y = drift_velocity(
+            sea, x + half * (own_x + drift_x), y + half * (own_y + drift_y), later, leeway
+        )
     return drift_x * time_step, drift_y * time_step
 
 

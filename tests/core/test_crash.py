@@ -8,8 +8,8 @@ import time
 
 import pytest
 
-from shoal.tracks import crash
-from shoal.tracks.crash import is_safe
+from shoal.core import crash
+from shoal.core.crash import is_safe
 
 
 @pytest.fixture(params=["fork", "other threads", "no fork"])

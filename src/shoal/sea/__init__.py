@@ -1,0 +1,1 @@
+"""Read what the sea does and where it ends: currents, wind, coasts."""
