@@ -100,14 +100,15 @@ def _read(scenario: Scenario) -> OpenSea:
     currents, wind = gridded("currents"), gridded("wind")
     coast = _polygons(sea.coast, frame, half_x, half_y, notes, digests)
     limits = _polygons(sea.search_area, frame, half_x, half_y, notes, digests)
-    from shoal.sea.raster import land_raster
-
     without = None if coast is not None or currents is None or not currents.land.any() else currents
     land = shore = None
-    if coast or without is not None:
-        land = shore = land_raster(coast, without, frame, half_x, half_y, sea.cell)
-    if limits is not None:
-        shore = land_raster(coast, without, frame, half_x, half_y, sea.cell, limits)
+    if coast or without is not None or limits is not None:
+        from shoal.sea.raster import land_raster
+
+        if coast or without is not None:
+            land = shore = land_raster(coast, without, frame, half_x, half_y, sea.cell)
+        if limits is not None:
+            shore = land_raster(coast, without, frame, half_x, half_y, sea.cell, limits)
     digest = hashlib.sha256("".join(digests).encode()).hexdigest()[:16] if digests else None
     return OpenSea(frame, currents, wind, land, shore, tuple(notes), digest)
 

@@ -134,7 +134,7 @@ def _corners(polygons: Polygons) -> Polygons:
 
 Shore = Annotated[
     Annotated[FileName, Tag("file")]
-    | Annotated[Polygons, Tag("polygons"), Field(min_length=1), AfterValidator(_corners)],
+    | Annotated[Polygons, Field(min_length=1), AfterValidator(_corners), Tag("polygons")],
     Discriminator(lambda value: "file" if isinstance(value, str) else "polygons"),
 ]
 TAGS = ("file", "polygons", *FLOWS)  # of the unions above, in where pydantic says that errors are
