@@ -18,10 +18,22 @@ from shoal.engine.measure import measure_after_move, measure_before_move, measur
 from shoal.engine.stage import FRAMES, NATURE, RADIO, RUN, SCRATCH, SEA, SWARM, TALLY, TARGETS, TRACKS, WORLD, Addresses
 from shoal.metrics.contract import Step
 from shoal.world.disturbances.dispatch import disturb
-from shoal.world.motion import limit_maneuver, limit_speed, move, move_adrift, note_drift, sail, slow_down
+from shoal.world.motion import (
+    add_drift,
+    limit_maneuver,
+    limit_speed,
+    move,
+    move_adrift,
+    note_drift,
+    sail,
+    sail_coast,
+    slow_down,
+)
 from shoal.world.neighbors import count_heard, link_nearest, measure_distances, rank_heard, settle_ties
 from shoal.world.presence import update_presence
-from shoal.world.radio import adapt_degree, deafen, hide_behind_land, limit_links, lose_reports, said, send
+from shoal.world.radio import adapt_degree, deafen, limit_links, lose_reports, said, send
+from shoal.world.sea.sea import carry
+from shoal.world.sea.sight import hide_behind_land
 from shoal.world.sensing import sense
 from shoal.world.targets.dispatch import advance_target
 
@@ -64,20 +76,21 @@ def link(stage, number, first, batch, key):
     swarm = part(stage, SWARM)
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
-    find_links(scratch.links, world, swarm, radio, part(stage, NATURE).effects, part(stage, SEA), number, first)
+    find_links(scratch, world, swarm, radio, part(stage, NATURE).effects, part(stage, SEA), number, first)
     return 0
 
 
 @kernel
-def find_links(links, world, swarm, radio, effects, sea, number, first):
+def find_links(scratch, world, swarm, radio, effects, sea, number, first):
     """Link the agents from `first` on to those whose reports may reach them, ties and losses aside."""
+    links = scratch.links
     last = first + links.reach.size
     reports = said(radio, swarm, number)
     measure_distances(links, reports.x, reports.y, swarm.x[first:last], swarm.y[first:last], first, world.agents)
     if world.disturbed:
         deafen(links, effects, first, world.agents)
     if world.coastal:
-        hide_behind_land(links, reports, swarm, sea.land, radio.range_square, first, world.agents)
+        hide_behind_land(links, scratch.sight, reports, swarm, sea.land, radio.range_square, first, world.agents)
     if radio.limited:
         limit_links(links, swarm, radio, first, world.agents, number)
         link_nearest(links, links.wanted, world.agents)
@@ -141,7 +154,7 @@ def move_agents(stage, number, first, batch, key):
     if world.disturbed:
         slow_down(command_x, command_y, swarm.max_speed[first:last], effects[first:last].speed)
     if world.flowing or world.coastal:
-        sail(swarm, effects, part(stage, SEA), world, number, first, there)
+        go_to_sea(swarm, effects, part(stage, SEA), scratch, world, number, first, there)
         return 0
     x, y, vx, vy = swarm.x[first:last], swarm.y[first:last], swarm.vx[first:last], swarm.vy[first:last]
     if world.disturbed:
@@ -152,6 +165,26 @@ def move_agents(stage, number, first, batch, key):
         move(x, vx, command_x, world.clamp_x, world.time_step)
         move(y, vy, command_y, world.clamp_y, world.time_step)
     return 0
+
+
+@kernel
+def go_to_sea(swarm, effects, sea, scratch, world, number, first, last):
+    """Move agents first..last where water and wind carry them, and land stops them."""
+    time_step = world.time_step
+    drift_x, drift_y = swarm.drift_x, swarm.drift_y
+    for i in range(first, last):
+        drift_x[i] = 0.0
+        drift_y[i] = 0.0
+    if world.flowing:
+        carry(sea, swarm, scratch, world.windy, number * time_step, time_step, first, last)
+    if world.disturbed:
+        add_drift(swarm, effects, time_step, first, last)
+    if world.coastal:
+        sail_coast(swarm, drift_x, drift_y, sea.shore, world, first, last)
+    else:
+        x, y, vx, vy = swarm.x[first:last], swarm.y[first:last], swarm.vx[first:last], swarm.vy[first:last]
+        sail(x, vx, swarm.command_x[first:last], drift_x[first:last], world.clamp_x, time_step)
+        sail(y, vy, swarm.command_y[first:last], drift_y[first:last], world.clamp_y, time_step)
 
 
 @phase
@@ -217,7 +250,7 @@ def look_at_links(stage, number, first, frame, key):
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
     links = scratch.links
-    find_links(links, world, swarm, radio, part(stage, NATURE).effects, part(stage, SEA), number, first)
+    find_links(scratch, world, swarm, radio, part(stage, NATURE).effects, part(stage, SEA), number, first)
     count_heard(links, world.agents)
     settle_links(links, world, swarm, radio, first, key)
     keep_links(frames, frame, links, first, world.agents)

@@ -15,6 +15,7 @@ from shoal.world.disturbances.contract import EFFECTS, NOT_BEGUN, Nature
 from shoal.world.neighbors import Links, new_links
 from shoal.world.radio import Radio, new_radio
 from shoal.world.sea.sea import Sea, calm_sea
+from shoal.world.sea.sight import Sight, new_sight
 from shoal.world.targets.catalogue import TARGET_FIELDS
 from shoal.world.targets.contract import Tracks
 
@@ -31,6 +32,8 @@ class Scratch(NamedTuple):
     a: Floats
     b: Floats
     c: Floats
+    d: Floats
+    sight: Sight
 
 
 class Frames(NamedTuple):
@@ -117,6 +120,8 @@ def new_scratch(world: World, lanes: int, sums: int = 2, ranked: bool = False) -
         a=aligned_zeros(lanes),
         b=aligned_zeros(lanes),
         c=aligned_zeros(lanes),
+        d=aligned_zeros(lanes),
+        sight=new_sight(0 if world.sequential or not world.coastal else world.agents, lanes),
     )
 
 

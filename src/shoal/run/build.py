@@ -46,6 +46,7 @@ def build_world(scenario: Scenario, sea: Sea) -> World:
         mortal=_is_mortal(scenario),
         disturbed=bool(scenario.disturbances),
         flowing=sea.currents.kind != STILL or sea.wind.kind != STILL,
+        windy=sea.wind.kind != STILL and any(fleet.windage for fleet in fleets),
         coastal=sea.shore.distance.size > 1,
         target_radius=min(target.radius for target in scenario.targets),
     )

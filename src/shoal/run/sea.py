@@ -15,7 +15,7 @@ from shoal.world.sea.sea import Sea, calm_sea
 if TYPE_CHECKING:
     from shoal.sea.gridded import Gridded
 
-EXACT = 0.05  # [m]: how well polynomials know where a place is on a grid
+EXACT = 5.0  # [m]: how well polynomials must know where a place is on a grid; for 100 km it is some mm
 _SAMPLES = 25  # a side, of places that they are fitted to
 
 
@@ -46,17 +46,15 @@ def _field(chosen: Any, read: "Gridded | None", frame: Frame | None, half: float
     if read is None:
         return still_field() if chosen is None else flow_field(chosen.kind, chosen.numbers())
     size = 1.1 * half  # what leaves the arena a little, such as a target, is still known
-    degree, coefficients = _to_axes(read, frame, size)
     return still_field()._replace(
         kind=GRID,
-        values=np.ascontiguousarray(np.stack((read.u, read.v), axis=-1), np.float32),
+        values=np.stack((read.u, read.v), axis=-1, dtype=np.float32).ravel(),
         times=np.ascontiguousarray(read.time, np.float64),
         first=np.ascontiguousarray(read.first, np.float64),
         second=np.ascontiguousarray(read.second, np.float64),
         first_step=_even(read.first),
         second_step=_even(read.second),
-        degree=degree,
-        coefficients=coefficients,
+        coefficients=_to_axes(read, frame, size),
         size=size,
     )
 
@@ -71,31 +69,30 @@ def _even(axis: Any) -> float:
     return step if drift < 1e-4 * step else 0.0
 
 
-def _to_axes(read: "Gridded", frame: Frame | None, size: float) -> tuple[int, Any]:
-    """Degree and coefficients (C, 2) of the polynomials that give longitude and latitude of local x and y.
-
-    The lowest degree that is exact to EXACT at places between those that it is fitted to.
+def _to_axes(read: "Gridded", frame: Frame | None, size: float) -> Any:
+    """Coefficients (2, 15) of the polynomials that give the place along the axes of local x and y.
 
     Raises
     ------
-    ScenarioError : none is
+    ScenarioError : the arena is so large that they would be wrong
     """
+    coefficients = np.zeros((2, 15))
     if read.metric or frame is None:
-        return 1, np.array([[0.0, 0.0], [0.0, size], [size, 0.0]])  # 1, y, x
+        coefficients[0, 5] = coefficients[1, 1] = size  # x and y themselves
+        return coefficients
     places, between = _places(_SAMPLES), _places(_SAMPLES + 6)
     wanted, true = (_geographic(frame, each, size) for each in (places, between))
+    coefficients[:] = np.linalg.lstsq(_powers(places), wanted, rcond=None)[0].T
     meters = np.array([111320.0 * np.cos(np.radians(frame.origin[1])), 111320.0])  # of a degree, about
-    for degree in range(1, DEGREE + 1):
-        coefficients = np.linalg.lstsq(_powers(places, degree), wanted, rcond=None)[0]
-        worst = np.abs((_powers(between, degree) @ coefficients - true) * meters).max()
-        if worst < EXACT:
-            return degree, coefficients
-    raise ScenarioError(
-        "area",
-        f"of {2 * size / 1.1e3:,.0f} km is too large for gridded data at this latitude: "
-        f"places would be wrong by {worst:.3g} m",
-        "make it smaller",
-    )
+    worst = np.abs((_powers(between) @ coefficients.T - true) * meters).max()
+    if worst > EXACT:
+        raise ScenarioError(
+            "area",
+            f"of {2 * size / 1.1e3:,.0f} km is too large for gridded data at this latitude: "
+            f"places on the grid would be wrong by {worst:.3g} m",
+            "make it smaller",
+        )
+    return coefficients
 
 
 def _places(count: int) -> Any:
@@ -108,7 +105,7 @@ def _geographic(frame: Frame, places: Any, size: float) -> Any:
     return np.stack((near(lon, frame.origin[0]), lat), axis=-1)
 
 
-def _powers(places: Any, degree: int) -> Any:
-    """x^i y^j, by i and then j, i + j <= degree: the order in which kernels read them."""
+def _powers(places: Any) -> Any:
+    """x^i y^j, by i and then j, i + j <= DEGREE: the order in which kernels read them."""
     x, y = places[:, 0], places[:, 1]
-    return np.stack([x**i * y**j for i in range(degree + 1) for j in range(degree - i + 1)], axis=-1)
+    return np.stack([x**i * y**j for i in range(DEGREE + 1) for j in range(DEGREE - i + 1)], axis=-1)

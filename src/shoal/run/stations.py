@@ -6,11 +6,13 @@ import numpy as np
 
 from shoal.compiler.kernel import plain
 from shoal.scenario.schema import Scenario
-from shoal.world.sea.land import Land, clearance
+from shoal.world.sea.land import Land
+from shoal.world.sea.land import clearance as _clearance
 
 ROUNDS = 40
 PLACES = 4000  # of water, at least, that the cover is worked out on
 _GOLDEN = 0.6180339887498949
+_clear: Any = plain(_clearance)  # one number takes longer to hand to compiled code than to work out
 
 
 def stations(shore: Land, scenario: Scenario) -> Any:
@@ -37,5 +39,5 @@ def _water(shore: Land, half_x: float, half_y: float, agents: int) -> Any:
     side = np.sqrt(4.0 * half_x * half_y / max(PLACES, 20 * agents))
     x, y = (np.arange(-half + side / 2, half, side) for half in (half_x, half_y))
     places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    free = np.array([plain(clearance)(shore, *place) for place in places])
+    free = np.array([_clear(shore, *place) for place in places])
     return places[free > 0.0]

@@ -66,6 +66,20 @@ def open_sea(scenario: Scenario) -> OpenSea | None:
     return opened
 
 
+def signed(scenario: Scenario) -> Scenario:
+    """Return the scenario with the digest of what the files of its sea hold.
+
+    Raises
+    ------
+    SeaError, MissingExtraError : see open_sea
+    """
+    opened = open_sea(scenario)
+    if opened is None or scenario.sea is None or opened.digest is None:
+        return scenario
+    sea = scenario.sea.model_copy(update={"digest": opened.digest})
+    return scenario.model_copy(update={"sea": sea})
+
+
 _KEPT: dict[tuple[Any, ...], OpenSea] = {}  # read once for all runs of a process
 
 

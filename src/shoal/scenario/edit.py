@@ -164,13 +164,17 @@ def parse_assignment(text: str) -> tuple[str, Any]:
 
 
 def _drop_digests(table: Table, changes: Mapping[str, Any]) -> None:
-    """A recorded track that is read differently is another one: the digest of the old one is void."""
+    """What is read differently, a recorded track or the sea, is another one: the digest of the old one is void."""
     targets = table.get("targets")
     for n, target in enumerate(targets if isinstance(targets, list) else ()):
         if isinstance(target, dict) and "digest" in target and f"targets.{n}.digest" not in changes:
             reading = (ORIGIN, *(f"targets.{n}.{name}" for name in READING))
             if any(name in changes for name in reading):
                 del target["digest"]
+    sea = table.get("sea")
+    window = ("sea", "area", "steps", "time_step", "target_track")
+    if isinstance(sea, dict) and "sea.digest" not in changes and any(name.split(".")[0] in window for name in changes):
+        sea.pop("digest", None)
 
 
 def _set_neighbors(table: Table, value: Any) -> None:

@@ -20,13 +20,12 @@ from shoal.scenario.disturbances import DISTURBANCES
 from shoal.scenario.frozen import MOST_ENTRIES, plain
 from shoal.scenario.recorded import RecordedScenario, RecordedStrategy
 from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Join, Loss, Motion, Network, Scenario
-from shoal.scenario.sea import FLOWS, TAGS, Sea
+from shoal.scenario.sea import FILES, FLOWS, TAGS, Sea
 from shoal.scenario.strategy_choice import StrategyParamsError, params_model
 from shoal.scenario.targets import TARGETS
 from shoal.strategies.plugins import find_strategy, load_strategies
 
 LARGEST = 10**6  # bytes of a scenario file
-SEA_FILES = ("currents", "wind", "coast", "search_area")
 _DEPTH = "a scenario is four levels deep at most"
 MOST_TOLD = 19  # problems of a scenario beside the first
 
@@ -52,7 +51,7 @@ def load(source: Source, /, **changes: Any) -> Scenario:
     Raises
     ------
     ScenarioError : no such preset or file, not TOML, not a scenario that can run, or a change that it has no place for
-    TrackError : the recorded track of `target_track` cannot be used
+    TrackError, SeaError : the recorded track of `target_track`, or a file of the sea, cannot be used
     StrategyError : the strategy cannot be loaded, or was redefined since the scenario was made
     """
     table, where, text = table_of(source), name_of_source(source), ""
@@ -64,6 +63,10 @@ def load(source: Source, /, **changes: Any) -> Scenario:
         text = _text_of(source)
     scenario = scenario_from(table, where=where, text=text)
     _refuse_outdated(scenario)
+    if scenario.sea and scenario.sea.files and scenario.sea.digest is None:
+        from shoal.scenario.at_sea import signed  # which needs libraries that most scenarios do not
+
+        return signed(scenario)
     return scenario
 
 
@@ -112,9 +115,8 @@ def read_table(source: str | PathLike[str]) -> dict[str, Any]:
         if isinstance(part, dict) and isinstance(part.get("file"), str) and part["file"]:
             part["file"] = str(folder / part["file"])
     sea = table.get("sea")
-    for name in SEA_FILES if isinstance(sea, dict) else ():
-        if isinstance(sea.get(name), str) and sea[name]:
-            sea[name] = str(folder / sea[name])
+    if isinstance(sea, dict):
+        sea |= {name: str(folder / sea[name]) for name in FILES if isinstance(sea.get(name), str) and sea[name]}
     return table
 
 
@@ -330,7 +332,7 @@ def _known_fields(path: tuple[Any, ...], table: Mapping[str, Any]) -> list[str]:
         return list(AdaptiveDegree.model_fields)
     if path[0] == "sea" and len(path) > 2:
         flow = FLOWS.get(str(_part_at(table, path[:2]).get("kind")))
-        return list(flow.model_fields) if flow else []
+        return list(flow.model_fields) if flow else []  # type: ignore[attr-defined]
     return list(models[path[0]].model_fields) if path[0] in models else []
 
 

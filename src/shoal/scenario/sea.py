@@ -11,6 +11,7 @@ from shoal.scenario.frozen import Frozen, Positive
 
 PerSecond = Annotated[float, Unit("1/s")]
 MOST_CORNERS = 10_000
+FILES = ("currents", "wind", "coast", "search_area")  # fields that may name one
 
 
 def _file(text: str) -> str:
@@ -191,5 +192,5 @@ class Sea(Frozen):
     @property
     def files(self) -> dict[str, str]:
         """The files that it names, by field."""
-        found = {name: getattr(self, name) for name in ("currents", "wind", "coast", "search_area")}
+        found = {name: getattr(self, name) for name in FILES}
         return {name: value for name, value in found.items() if isinstance(value, str)}

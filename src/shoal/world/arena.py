@@ -14,7 +14,8 @@ class World(NamedTuple):
     imperfect : sensors miss targets or report false ones
     mortal : agents are lost or join during the run
     disturbed : there are disturbances; it is imperfect and mortal then, too
-    flowing : there are currents or wind; coastal : there is land, or a limit to where agents may go
+    flowing : there are currents or wind; windy : wind, and agents that it moves
+    coastal : there is land, or a limit to where agents may go
     target_radius : of the smallest target
     """
 
@@ -32,5 +33,6 @@ class World(NamedTuple):
     mortal: bool
     disturbed: bool
     flowing: bool
+    windy: bool
     coastal: bool
     target_radius: float

@@ -4,7 +4,6 @@ import math
 
 from shoal.compiler.kernel import kernel
 from shoal.world.sea.land import clearance, sailed
-from shoal.world.sea.sea import Leeway, carried, instant
 
 NO_DRIFT = -0.0  # adds nothing, not even to the sign of a zero
 
@@ -108,40 +107,38 @@ def move_adrift(position, velocity, command, drift, clamp, time_step):
 
 
 @kernel
-def sail(swarm, effects, sea, world, number, first, last):
-    """Move agents first..last of a sea with currents, wind or land, in place, by what they command and by the drift.
-
-    effects : (L,) records of what disturbances do to each, see world/disturbances/contract.py
-    """
+def sail_coast(swarm, drift_x, drift_y, shore, world, first, last):
+    """Move agents first..last, in place, by what they command and by a drift (N,) [m/s], where land may stop them."""
     time_step = world.time_step
-    now = instant(sea, number * time_step)
-    later = instant(sea, (number + 0.5) * time_step)
     for i in range(first, last):
-        if swarm.alive[i] == 0.0:
-            continue
         x, y, command_x, command_y = swarm.x[i], swarm.y[i], swarm.command_x[i], swarm.command_y[i]
-        drift_x, drift_y = NO_DRIFT, NO_DRIFT
-        if world.disturbed:
-            drift_x, drift_y = effects[i].drift_x, effects[i].drift_y
-        if world.flowing:
-            wind = Leeway(swarm.leeway[i, 0], swarm.leeway[i, 1], swarm.leeway[i, 2], swarm.leeway[i, 3])
-            more_x, more_y = carried(sea, x, y, command_x, command_y, now, later, time_step, wind)
-            drift_x += more_x
-            drift_y += more_y
-        free_x = x + (command_x * time_step + drift_x)
-        free_y = y + (command_y * time_step + drift_y)
-        there_x, there_y = free_x, free_y
-        if world.coastal:
-            there_x, there_y = sailed(sea.shore, x, y, free_x, free_y)
-            swarm.aground[i] = there_x != free_x or there_y != free_y
-        there_x = min(max(there_x, -world.clamp_x), world.clamp_x)
-        there_y = min(max(there_y, -world.clamp_y), world.clamp_y)
-        if world.coastal and clearance(sea.shore, there_x, there_y) < 0.0:
-            there_x, there_y = x, y  # the wall would put it on land
-        swarm.vx[i] = made(x, command_x, drift_x, free_x, there_x, world.clamp_x, time_step)
-        swarm.vy[i] = made(y, command_y, drift_y, free_y, there_y, world.clamp_y, time_step)
-        swarm.x[i], swarm.y[i] = there_x, there_y
-        swarm.drift_x[i], swarm.drift_y[i] = drift_x / time_step, drift_y / time_step
+        carried_x, carried_y = drift_x[i] * time_step, drift_y[i] * time_step
+        free_x = x + (command_x * time_step + carried_x)
+        free_y = y + (command_y * time_step + carried_y)
+        there_x, there_y = sailed(shore, x, y, free_x, free_y)
+        swarm.aground[i] = there_x != free_x or there_y != free_y
+        walled_x = min(max(there_x, -world.clamp_x), world.clamp_x)
+        walled_y = min(max(there_y, -world.clamp_y), world.clamp_y)
+        if (walled_x != there_x or walled_y != there_y) and clearance(shore, walled_x, walled_y) < 0.0:
+            walled_x, walled_y = x, y  # the wall would put it on land
+        swarm.vx[i] = made(x, command_x, carried_x, free_x, walled_x, world.clamp_x, time_step)
+        swarm.vy[i] = made(y, command_y, carried_y, free_y, walled_y, world.clamp_y, time_step)
+        swarm.x[i], swarm.y[i] = walled_x, walled_y
+
+
+@kernel
+def add_drift(swarm, effects, time_step, first, last):
+    """Add what disturbances do to the drift of agents first..last [m/s], in place."""
+    for i in range(first, last):
+        swarm.drift_x[i] += effects[i].drift_x / time_step
+        swarm.drift_y[i] += effects[i].drift_y / time_step
+
+
+@kernel
+def sail(position, velocity, command, drift, clamp, time_step):
+    """Move a block of agents (B,) along one axis, in place, by what they command and by a drift (B,) [m/s]."""
+    for i in range(position.size):
+        position[i], velocity[i] = moved(position[i], command[i], drift[i] * time_step, clamp, time_step)
 
 
 @kernel

@@ -9,7 +9,6 @@ from shoal.compiler.kernel import kernel
 from shoal.core.agents import Floats, both, width
 from shoal.core.draws import split, uniform
 from shoal.world.neighbors import linked
-from shoal.world.sea.land import in_sight
 
 _LOSS = 1 << 33  # a stream of keys that neither agents nor targets draw from
 
@@ -118,18 +117,6 @@ def said(radio, swarm, number):
 def adapted(contact, on_contact, weight):
     """The share of recent steps in contact, one step later; a step weighs `weight`."""
     return contact + weight * (on_contact - contact)
-
-
-@kernel
-def hide_behind_land(links, reports, swarm, land, range_square, first, agents):
-    """Unlink speakers, within range, that land hides from the agents from `first` on."""
-    square = links.square
-    for lane in range(min(links.reach.size, agents - first)):
-        x, y = swarm.x[first + lane], swarm.y[first + lane]
-        for j in range(agents):
-            if square[j, lane] <= range_square and square[j, lane] < np.inf:
-                seen = in_sight(land, x, y, reports.x[j], reports.y[j])
-                square[j, lane] = square[j, lane] if seen else np.inf
 
 
 @kernel

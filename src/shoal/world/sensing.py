@@ -2,7 +2,7 @@
 
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import split, uniform
-from shoal.world.sea.land import in_sight
+from shoal.world.sea.sight import in_sight
 
 _DETECTION = 1 << 21  # purposes that no strategy draws for
 _FALSE_ALARM = _DETECTION + 1

@@ -88,24 +88,6 @@ def _off_land(land, x, y):
 
 
 @kernel
-def in_sight(land, x, y, other_x, other_y):
-    """Whether no land lies between two places [m]. Cheap where both are far from the shore."""
-    dx = other_x - x
-    dy = other_y - y
-    distance = math.sqrt(dx * dx + dy * dy)
-    seen = max(clearance(land, x, y), 0.0)
-    if seen + max(clearance(land, other_x, other_y), 0.0) >= distance:
-        return True
-    while seen < distance:
-        share = seen / distance
-        free = clearance(land, x + share * dx, y + share * dy)
-        if free < 0.0:
-            return False
-        seen += max(free, 0.5 * land.cell)
-    return True
-
-
-@kernel
 def anywhere_afloat(land, half_x, half_y, draw):
     """A place at sea, by chance, uniform in +- half_x, half_y [m]; on open water what draws 0 and 1 alone say."""
     x = half_x * (2.0 * uniform(draw, 0) - 1.0)
