@@ -77,7 +77,9 @@ class TestRegularGrids:
         assert_is_the_field(field)
         assert abs(field.first.mean() - ORIGIN[0]) < 1.0
 
-    @pytest.mark.parametrize("lon", [np.arange(-180.0, 180.0, 0.5), np.arange(0.0, 360.0, 0.5), np.arange(0.0, 360.1, 0.5)])
+    @pytest.mark.parametrize(
+        "lon", [np.arange(-180.0, 180.0, 0.5), np.arange(0.0, 360.0, 0.5), np.arange(0.0, 360.1, 0.5)]
+    )
     @pytest.mark.parametrize("origin", [(180.0, 60.0), (-179.9, 60.0), (0.0, 60.0), (359.9, 60.0), (5.0, 60.0)])
     def test_the_whole_earth_has_no_seam(self, tmp_path, lon, origin):
         lat = axis(60.0, 3.0, 13)
@@ -309,8 +311,16 @@ class TestGridsThatBend:
             "time": (("time",), TIME, TIME_IS),
             "X": (("X",), x, {"standard_name": "projection_x_coordinate", "units": "m"}),
             "Y": (("Y",), y[rows], {"standard_name": "projection_y_coordinate", "units": "m"}),
-            "u": (("time", "Y", "X"), along[:, rows], {"units": "m s-1", "standard_name": names[0], "grid_mapping": "map"}),
-            "v": (("time", "Y", "X"), up[:, rows], {"units": "m s-1", "standard_name": names[1], "grid_mapping": "map"}),
+            "u": (
+                ("time", "Y", "X"),
+                along[:, rows],
+                {"units": "m s-1", "standard_name": names[0], "grid_mapping": "map"},
+            ),
+            "v": (
+                ("time", "Y", "X"),
+                up[:, rows],
+                {"units": "m s-1", "standard_name": names[1], "grid_mapping": "map"},
+            ),
         }
         if lonlat:
             variables |= {"lon": (("Y", "X"), lon[rows], LON_IS), "lat": (("Y", "X"), lat[rows], LAT_IS)}
@@ -345,7 +355,11 @@ class TestGridsThatBend:
             "s_rho": (("s_rho",), levels, {"standard_name": "ocean_s_coordinate_g2", "positive": "up"}),
             "lon_rho": (("eta_rho", "xi_rho"), lon, LON_IS),
             "lat_rho": (("eta_rho", "xi_rho"), lat, LAT_IS),
-            "angle": (("eta_rho", "xi_rho"), np.degrees(angle) if angle_is == "degrees" else angle, {"units": angle_is}),
+            "angle": (
+                ("eta_rho", "xi_rho"),
+                np.degrees(angle) if angle_is == "degrees" else angle,
+                {"units": angle_is},
+            ),
             "mask_rho": (("eta_rho", "xi_rho"), np.ones_like(lon), {}),
             "u": (("ocean_time", "s_rho", "eta_u", "xi_u"), deep(on_u), {"units": "meter second-1"}),
             "v": (("ocean_time", "s_rho", "eta_v", "xi_v"), deep(on_v), {"units": "meter second-1"}),
