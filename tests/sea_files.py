@@ -64,7 +64,7 @@ TIME_IS = {"units": HOURS, "standard_name": "time"}
 
 
 def regular(path, names=("uo", "vo"), lon=LON, lat=LAT, time=TIME, units="m s-1", scale=1.0, **more):
-    """A file on axes of longitude and latitude; `more`: attributes of both components, but `change` of all variables."""
+    """A file on axes of longitude and latitude; `more`: of both components, `change`: of all variables."""
     change = more.pop("change", {})
     t, y, x = np.meshgrid(time, lat, lon, indexing="ij")
     over = ("time", "lat", "lon")
@@ -90,7 +90,7 @@ def refusal(path, **options):
     return caught.value.args
 
 
-def assert_is_the_field(field, frame=None, tolerance=2e-6, half=HALF):
+def assert_is_the_field(field, frame=None, tolerance=2e-6, half=HALF, hours=0.0):
     """At every node in the arena, at every time, the field is `east` and `north`, turned into the frame."""
     frame = frame or Frame(ORIGIN)
     first, second = np.meshgrid(field.first, field.second)
@@ -98,8 +98,8 @@ def assert_is_the_field(field, frame=None, tolerance=2e-6, half=HALF):
     x, y = frame.local(lon, lat)
     arena = (np.abs(x) <= half * 1.001) & (np.abs(y) <= half * 1.001)
     assert arena.sum() > 9
-    for k, hours in enumerate(field.time / 3600.0):
-        u, v = frame.turned(lon, lat, east(lon, lat, hours), north(lon, lat, hours))
+    for k, later in enumerate(hours + field.time / 3600.0):
+        u, v = frame.turned(lon, lat, east(lon, lat, later), north(lon, lat, later))
         np.testing.assert_allclose(field.u[k][arena], u[arena], atol=tolerance)
         np.testing.assert_allclose(field.v[k][arena], v[arena], atol=tolerance)
 

@@ -1,6 +1,7 @@
 """Specification of reading currents and wind: each convention against a field that is known everywhere."""
 
 import shutil
+import tracemalloc
 from datetime import timedelta
 
 import numpy as np
@@ -113,6 +114,14 @@ class TestRegularGrids:
         }
         assert_is_the_field(reading(regular(tmp_path / "a.nc", change=change)))
 
+    @pytest.mark.parametrize("step", [1, -1])
+    def test_a_longitude_and_a_latitude_for_each_node_of_straight_rows(self, tmp_path, step):
+        lon, lat = np.meshgrid(LON, LAT[::step])
+        change = {"lon": (("lat", "lon"), lon, LON_IS), "lat": (("lat", "lon"), lat, LAT_IS)}
+        field = reading(regular(tmp_path / "a.nc", lat=LAT[::step], change=change))
+        assert_is_the_field(field)
+        assert not field.metric
+
     def test_the_digest_is_of_what_was_read(self, tmp_path):
         path = regular(tmp_path / "a.nc")
         other = shutil.copy(path, tmp_path / "b.nc")
@@ -154,7 +163,8 @@ class TestNamesAndUnits:
     @pytest.mark.parametrize(
         ("values", "units"),
         [(np.arange(4) * 60, "minutes since 2020-01-01"), (np.arange(4) / 24, "days since 2020-01-01T00:00:00Z"),
-         (np.arange(4) * 3600 + 1_577_836_800, "seconds since 1970-01-01"), (np.arange(4) + 2, "hours since 2020-01-01 00:00 +02:00")],
+         (np.arange(4) * 3600 + 1_577_836_800, "seconds since 1970-01-01"),
+         (np.arange(4) + 2, "hours since 2020-01-01 00:00 +02:00")],
     )  # fmt: skip
     def test_units_of_time(self, tmp_path, values, units):
         change = {"time": (("time",), values, {"units": units})}
@@ -257,6 +267,36 @@ class TestMissing:
         field = reading(regular(tmp_path / "radar.nc", names=("u", "v"), change=change), duration=5400.0)
         assert np.isfinite(field.u).all()
         assert not field.land.any()
+
+
+class TestSize:
+    """Of a large file no more is held than the window."""
+
+    def test_a_window_of_a_large_file(self, tmp_path):
+        lon, lat, hours, depths = (
+            axis(ORIGIN[0], 4.0, 801),
+            axis(ORIGIN[1], 4.0, 801),
+            np.arange(200.0),
+            np.arange(10.0),
+        )
+        sizes = {"time": 200, "depth": 10, "lat": 801, "lon": 801}
+        empty = {"time": hours, "depth": depths, "lat": lat, "lon": lon}
+        about = {"time": TIME_IS, "depth": {"units": "m", "positive": "down"}, "lat": LAT_IS, "lon": LON_IS}
+        path = netcdf(tmp_path / "a.nc", sizes, {name: ((name,), empty[name], about[name]) for name in sizes})
+        import netCDF4
+
+        with netCDF4.Dataset(path, "a") as dataset:  # 10 GB, of which all but the window is not written
+            t, y, x = np.meshgrid(hours[100:104], lat[380:420], lon[380:420], indexing="ij")
+            for name, values in (("uo", east(x, y, t)), ("vo", north(x, y, t))):
+                variable = dataset.createVariable(name, "f4", tuple(sizes), chunksizes=(1, 1, 100, 100))
+                variable.units = "m s-1"
+                variable[100:104, 0, 380:420, 380:420] = values
+        tracemalloc.start()
+        field = reading(path, start=START + timedelta(hours=100))
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert_is_the_field(field, hours=100.0)
+        assert peak < 5e6
 
 
 class TestSteady:

@@ -14,7 +14,10 @@ from shoal.sea.curved import curved_nodes
 from shoal.sea.projected import projected_nodes
 from shoal.sea.window import Window, box
 
+Axis = tuple[NDArray[np.float64], NDArray[np.intp]]  # nodes [deg] and their indices in the file
+
 MARGIN = 2  # cells beyond the arena, where the file has them
+SAME = 1e-3  # cells: longitudes of a column that differ by less are one
 LAT = (("latitude",), ("degrees_north", "degree_north", "degree_n", "degrees_n", "degreen", "degreesn"),
        ("lat", "latitude", "nav_lat", "lat_rho", "y_lat", "xlat", "tlat", "gphit"))  # fmt: skip
 LON = (("longitude",), ("degrees_east", "degree_east", "degree_e", "degrees_e", "degreee", "degreese"),
@@ -70,7 +73,10 @@ def nodes_of(dataset: Any, path: Path, shape: dict[str, int], variable: Any, win
         raise SeaError(
             str(path), problem, "interpolate to a grid of longitudes and latitudes first, as with cdo remapbil"
         )
-    return Nodes(*curved_nodes(path, lat, lon, window), straight=False)
+    dimensions, rows, columns, lons, lats = curved_nodes(path, lat, lon, window)
+    if set(dimensions) <= set(variable.dimensions) and _is_straight(lons) and _is_straight(lats.T):
+        return _kept_nodes(path, dimensions, _rising(lats[:, 0], rows), _rising(lons[0], columns), window)
+    return Nodes(dimensions, rows, columns, lons, lats, straight=False)
 
 
 def _coordinate(dataset: Any, variable: Any, shape: dict[str, int], known: Any) -> Any:
@@ -107,12 +113,30 @@ def _straight_nodes(path: Path, lat: Any, lon: Any, window: Window) -> Nodes:
     lons, columns = _around(lons, columns, window.middle)
     if np.abs(lats).max() > 90.0 + 1e-6:
         raise SeaError(f"{path} {lat.name}", "is beyond 90 degrees", "give latitudes in degrees")
+    return _kept_nodes(path, (lat.dimensions[0], lon.dimensions[0]), (lats, rows), (lons, columns), window)
+
+
+def _kept_nodes(path: Path, dimensions: tuple[str, str], second: Axis, first: Axis, window: Window) -> Nodes:
+    """The nodes of rising axes that a window needs, if it is inside."""
+    (lats, rows), (lons, columns) = second, first
     inside_east = lons[0] - 1e-9 <= window.west and window.east <= lons[-1] + 1e-9
     inside_north = lats[0] - 1e-9 <= window.south and window.north <= lats[-1] + 1e-9
     if not (inside_east and inside_north):
         raise outside(path, window, box(lons[0], lons[-1], lats[0], lats[-1]))
     i, j = _kept(lons, window.west, window.east), _kept(lats, window.south, window.north)
-    return Nodes((lat.dimensions[0], lon.dimensions[0]), rows[j], columns[i], lons[i], lats[j], straight=True)
+    return Nodes(dimensions, rows[j], columns[i], lons[i], lats[j], straight=True)
+
+
+def _is_straight(values: NDArray[np.float64]) -> bool:
+    """Whether each column (J, I) is at one longitude, and columns rise or fall."""
+    steps = np.diff(values[0])
+    if not (np.isfinite(values).all() and ((steps > 0.0).all() or (steps < 0.0).all())):
+        return False
+    return bool(np.ptp(values, axis=0).max() <= SAME * np.abs(steps).min())
+
+
+def _rising(values: NDArray[np.float64], index: NDArray[np.intp]) -> Axis:
+    return (values, index) if values[-1] > values[0] else (values[::-1], index[::-1])
 
 
 def outside(path: Path, window: Window, covered: str) -> SeaError:
@@ -124,7 +148,7 @@ def outside(path: Path, window: Window, covered: str) -> SeaError:
     )
 
 
-def _axis(path: Path, variable: Any) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+def _axis(path: Path, variable: Any) -> Axis:
     """An axis [deg] that rises, and the index in the file of each of its nodes."""
     values = np.ma.filled(np.ma.masked_invalid(np.ma.asarray(variable[...], np.float64)), np.nan)
     if "radian" in text(variable, "units"):
@@ -133,9 +157,7 @@ def _axis(path: Path, variable: Any) -> tuple[NDArray[np.float64], NDArray[np.in
         raise SeaError(f"{path} {variable.name}", "has fewer than 2 nodes", "give a file that is wider than one cell")
     if not np.isfinite(values).all():
         raise SeaError(f"{path} {variable.name}", "has missing values", "export the file again")
-    values, index = np.unwrap(values, period=360.0), np.arange(len(values))
-    if values[-1] < values[0]:
-        values, index = values[::-1], index[::-1]
+    values, index = _rising(np.unwrap(values, period=360.0), np.arange(len(values)))
     if not np.all(np.diff(values) > 0.0):
         raise SeaError(
             f"{path} {variable.name}", "neither rises nor falls all along", "sort its nodes, each of them once"
