@@ -35,9 +35,11 @@ class Sight(NamedTuple):
 
 
 def new_sight(agents: int, lanes: int) -> Sight:
-    """Nothing is known; of no agents, nothing is kept."""
+    """Nothing is known, but that nobody hides from itself; of no agents, nothing is kept."""
+    until = aligned_zeros(agents * lanes).reshape((agents, lanes))
+    np.fill_diagonal(until[:, :agents], np.inf)
     return Sight(
-        aligned_zeros(agents * lanes).reshape((agents, lanes)),
+        until,
         np.ones(1),
         np.zeros(agents),
         np.zeros(agents),
@@ -104,7 +106,7 @@ def hide_behind_land(links, sight, reports, swarm, land, range_square, first, ag
             square[j, i] = np.inf if until < 0.0 else square[j, i]
         if unsure:
             for i in range(lanes):
-                if abs(sight.until[j, i]) <= travelled and i != j:
+                if abs(sight.until[j, i]) <= travelled:
                     _look_again(square, sight, reports, swarm, land, range_square, travelled, j, i)
 
 
