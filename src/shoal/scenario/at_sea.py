@@ -13,6 +13,7 @@ from shoal.scenario.schema import Scenario
 
 if TYPE_CHECKING:
     from shoal.sea.gridded import Gridded
+    from shoal.sea.polygons import Polygon
     from shoal.sea.raster import Raster
 
 
@@ -99,21 +100,9 @@ def _read(scenario: Scenario) -> OpenSea:
     frame = Frame(area.origin) if area.origin else None
     notes: list[str] = []
     digests: list[str] = []
-
-    def gridded(name: str) -> "Gridded | None":
-        file = getattr(sea, name)
-        if not isinstance(file, str):
-            return None
-        from shoal.sea.gridded import read_gridded
-
-        read = read_gridded(file, name, frame, half_x, half_y, sea.start, scenario.steps * scenario.time_step)
-        notes.extend(read.notes)
-        digests.append(read.digest)
-        return read
-
-    currents, wind = gridded("currents"), gridded("wind")
-    coast = _polygons(sea.coast, frame, half_x, half_y, notes, digests)
-    limits = _polygons(sea.search_area, frame, half_x, half_y, notes, digests)
+    currents, wind = (_gridded(scenario, name, frame, notes, digests) for name in ("currents", "wind"))
+    coast = _coast(sea.coast, frame, half_x, half_y, notes, digests)
+    limits = _search_area(sea.search_area, frame, digests)
     without = None if coast is not None or currents is None or not currents.land.any() else currents
     land = shore = None
     if coast or without is not None or limits is not None:
@@ -121,24 +110,61 @@ def _read(scenario: Scenario) -> OpenSea:
 
         if coast or without is not None:
             land = shore = land_raster(coast, without, frame, half_x, half_y, sea.cell)
+            notes.extend(land.notes)
         if limits is not None:
             shore = land_raster(coast, without, frame, half_x, half_y, sea.cell, limits)
     digest = hashlib.sha256("".join(digests).encode()).hexdigest()[:16] if digests else None
     return OpenSea(frame, currents, wind, land, shore, tuple(notes), digest)
 
 
-def _polygons(
-    chosen: Any, frame: Frame | None, half_x: float, half_y: float, notes: list[str], digests: list[str]
-) -> list[Any] | None:
-    """Land or a search area as polygons in local meters, [(shell, holes), ...]; None where nothing is said."""
-    if chosen is None:
+def _gridded(
+    scenario: Scenario, name: str, frame: Frame | None, notes: list[str], digests: list[str]
+) -> "Gridded | None":
+    """Currents or wind of a file; None where there is no file."""
+    sea, area = scenario.sea, scenario.area
+    file = getattr(sea, name)
+    if not isinstance(file, str):
         return None
+    from shoal.sea.gridded import read_gridded
+
+    assert frame is not None and sea is not None and sea.start is not None  # the scenario insists on both
+    duration = scenario.steps * scenario.time_step
+    read = read_gridded(file, name, frame, area.width / 2, area.height / 2, sea.start, duration)
+    notes.extend(read.notes)
+    digests.append(read.digest)
+    return read
+
+
+def _coast(
+    chosen: Any, frame: Frame | None, half_x: float, half_y: float, notes: list[str], digests: list[str]
+) -> "list[Polygon] | None":
+    """Land as polygons in local meters; None where nothing is said."""
     if not isinstance(chosen, str):
-        return [(np.asarray(corners, np.float64), []) for corners in chosen]
+        return _inline(chosen)
     from shoal.sea.coast import read_coast
 
-    assert frame is not None  # the scenario insists on an origin where there are files
+    assert frame is not None
     coast = read_coast(chosen, frame, half_x, half_y)
     notes.extend(coast.notes)
     digests.append(coast.digest)
     return list(coast.polygons)
+
+
+def _search_area(chosen: Any, frame: Frame | None, digests: list[str]) -> "list[Polygon] | None":
+    """The polygons that agents and targets stay in, in local meters; None where nothing is said."""
+    if not isinstance(chosen, str):
+        return _inline(chosen)
+    from shoal.sea.raster import search_area
+
+    assert frame is not None
+    polygons = search_area(chosen, frame)
+    corners = [ring for each in polygons for ring in (each.shell, *each.holes)]
+    digests.append(hashlib.sha256(b"".join(np.round(ring, 3).tobytes() for ring in corners)).hexdigest())
+    return polygons
+
+
+def _inline(chosen: Any) -> "list[Polygon] | None":
+    """Polygons that the scenario itself spells out."""
+    from shoal.sea.polygons import Polygon
+
+    return None if chosen is None else [Polygon(np.array([*corners, corners[0]], np.float64), []) for corners in chosen]

@@ -45,7 +45,7 @@ class Raster:
 def land_raster(
     polygons: Sequence[Polygon] | None,
     land: Gridded | None,
-    frame: Frame,
+    frame: Frame | None,
     half_x: float,
     half_y: float,
     cell: float | None = None,
@@ -60,7 +60,7 @@ def land_raster(
     ----------
     polygons : land in local meters; None: none are known
     land : where there are no polygons, a field whose nodes without values are land
-    frame : local meters of the arena
+    frame : local meters of the arena, which `land` needs
     half_x, half_y : [m] half the sides of the arena
     cell : [m] default the longer side / 2000, at least 5 m
     outside : polygons outside of which nobody may go, as if it were land
@@ -75,7 +75,7 @@ def land_raster(
     notes = []
     if polygons is not None:
         is_land = filled(polygons, x, y)
-    elif land is not None and land.land.any():
+    elif land is not None and frame is not None and land.land.any():
         is_land = _nearest(land, frame, x, y)
         notes.append("There is no coast file: where the field has no values is land.")
     else:
