@@ -6,6 +6,7 @@ import numpy as np
 
 from shoal.drawing.agents import AgentMarks
 from shoal.drawing.arena import PAD, draw_arena, draw_scale_bar, in_kilometers
+from shoal.drawing.chart import current_arrows, draw_chart
 from shoal.drawing.discs import Halos, SensorDiscs
 from shoal.drawing.links import Links
 from shoal.drawing.targets import TargetMarks
@@ -62,7 +63,10 @@ class ArenaDrawing:
         targets = record.scenario.targets
         steps = trail_steps(record.scenario) if trail is None else trail
         draw_arena(axes, record.scenario.area, pad)
+        draw_chart(axes, record.scenario)
         self.actors: list[Actor] = []
+        if arrows := current_arrows(axes, record.scenario):
+            self.actors.append(arrows)
         for number, target in enumerate(targets):
             if target.kind == "track":
                 draw_whole_path(axes, self.frames, number, target.radius)

@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from shoal.drawing.agents import AgentMarks
 from shoal.drawing.arena import draw_arena, draw_scale_bar
+from shoal.drawing.chart import draw_chart
 from shoal.drawing.legend import draw_map_legend
 from shoal.drawing.snapshot import POINTS, frames_of
 from shoal.drawing.stretch import stretch_of
@@ -54,6 +55,7 @@ def draw_trajectory_map(
     area, targets = record.scenario.area, record.scenario.targets
     side = max(area.width, area.height)
     draw_arena(axes, area)
+    draw_chart(axes, record.scenario)
     paths = agent_paths(frames, slice(None))  # (N, K, 2)
     begin = 0
     for fleet, number in enumerate(facts.counts):
