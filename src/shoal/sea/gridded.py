@@ -23,7 +23,7 @@ from shoal.sea.span import Span, span_of
 from shoal.sea.turn import angles_of, unstaggered
 from shoal.sea.window import Window, box, window_of
 
-MOST_VALUES = 100_000_000  # of a component in the window: 400 MB
+MOST_VALUES = 50_000_000  # of a component in the window: 200 MB
 QUANTITIES = ("currents", "wind")
 
 Mask = NDArray[np.bool_]
