@@ -9,7 +9,7 @@ import time
 import pytest
 
 from shoal.core import crash
-from shoal.core.crash import is_safe
+from shoal.core.crash import Crashed, elsewhere, is_safe
 
 
 @pytest.fixture(params=["fork", "other threads", "no fork"])
@@ -38,6 +38,23 @@ class TestIsSafe:
     def test_what_hangs_is_not(self, monkeypatch):
         monkeypatch.setattr(crash, "LONGEST", 0.5)
         assert not is_safe(time.sleep, 60)
+
+
+@pytest.mark.usefixtures("situation")
+class TestElsewhere:
+    def test_what_is_returned_comes_back(self):
+        assert elsewhere(math.sqrt, 4.0) == 2.0
+        assert len(elsewhere(bytes, 10_000_000)) == 10_000_000
+
+    def test_what_is_raised_is_raised(self):
+        with pytest.raises(ValueError, match=r"domain|nonnegative"):
+            elsewhere(math.sqrt, -1.0)
+
+    def test_a_crash_and_a_hang_are_told(self):
+        with pytest.raises(Crashed):
+            elsewhere(faulthandler._sigsegv)
+        with pytest.raises(Crashed):
+            elsewhere(time.sleep, 60, longest=0.5)
 
 
 def test_where_no_process_can_be_had_nothing_is_tried(monkeypatch):

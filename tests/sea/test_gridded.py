@@ -1,6 +1,7 @@
 """Specification of reading currents and wind: each convention against a field that is known everywhere."""
 
 import shutil
+import threading
 import tracemalloc
 from datetime import timedelta
 
@@ -29,6 +30,7 @@ from sea_files import (
     real,
     regular,
 )
+from shoal.core.errors import SeaError
 from shoal.core.geodesy import Frame
 
 pytest.importorskip("netCDF4")
@@ -128,6 +130,24 @@ class TestRegularGrids:
         assert reading(path).digest == reading(other).digest
         assert reading(path).digest != reading(path, half=8000.0).digest
         assert reading(path).digest != reading(path, duration=3000.0).digest
+
+    def test_a_coarse_grid_at_the_pole(self, tmp_path):
+        lon, lat = np.arange(0.0, 360.0, 2.5), np.arange(-90.0, 91.0, 2.5)
+        change = {name: (("time", "lat", "lon"), np.ones((1, 73, 144)), {"units": "m/s"}) for name in ("uo", "vo")}
+        path = regular(tmp_path / "a.nc", lon=lon, lat=lat, time=TIME[:1], change=change)
+        field = reading(path, origin=(30.0, 88.0))
+        np.testing.assert_allclose(np.hypot(field.u, field.v), 2.0**0.5, rtol=1e-2)
+
+    def test_where_another_thread_runs(self, tmp_path):
+        done = threading.Event()
+        threading.Thread(target=done.wait, daemon=True).start()
+        path = regular(tmp_path / "a.nc")
+        try:
+            assert_is_the_field(reading(path))
+            with pytest.raises(SeaError, match="does not cover"):
+                reading(path, origin=(50.0, 60.0))
+        finally:
+            done.set()
 
 
 class TestNamesAndUnits:
@@ -381,8 +401,7 @@ class TestGridsThatBend:
         path = self.norkyst(tmp_path / "a.nc", lonlat=False, flipped=True)
         assert_is_the_field(reading(path), tolerance=2e-5)
 
-    @pytest.mark.parametrize("angle_is", ["radians", "degrees", "absent"])
-    def test_roms_staggered_with_an_angle(self, tmp_path, angle_is):
+    def roms(self, path, angle_is="radians", sea=1.0):
         x, y, lon, lat, angle = stereographic()
         t = TIME[:, None, None]
         e, n = east(lon, lat, t), north(lon, lat, t)
@@ -400,7 +419,7 @@ class TestGridsThatBend:
                 np.degrees(angle) if angle_is == "degrees" else angle,
                 {"units": angle_is},
             ),
-            "mask_rho": (("eta_rho", "xi_rho"), np.ones_like(lon), {}),
+            "mask_rho": (("eta_rho", "xi_rho"), sea + 0.0 * lon, {}),
             "u": (("ocean_time", "s_rho", "eta_u", "xi_u"), deep(on_u), {"units": "meter second-1"}),
             "v": (("ocean_time", "s_rho", "eta_v", "xi_v"), deep(on_v), {"units": "meter second-1"}),
         }
@@ -409,9 +428,20 @@ class TestGridsThatBend:
         rows, columns = len(y), len(x)
         sizes = {"ocean_time": len(TIME), "s_rho": 2, "eta_rho": rows, "xi_rho": columns, "eta_u": rows}
         sizes |= {"xi_u": columns - 1, "eta_v": rows - 1, "xi_v": columns}
-        field = reading(netcdf(tmp_path / "roms.nc", sizes, variables))
+        return netcdf(path, sizes, variables)
+
+    @pytest.mark.parametrize("angle_is", ["radians", "degrees", "absent"])
+    def test_roms_staggered_with_an_angle(self, tmp_path, angle_is):
+        field = reading(self.roms(tmp_path / "roms.nc", angle_is))
         assert_is_the_field(field, tolerance=3e-5)
         assert any("s_rho = -0.25" in note for note in field.notes)
+
+    def test_the_mask_of_roms_is_land(self, tmp_path):
+        sea = np.ones((33, 33))
+        sea[:, :12] = 0.0
+        field = reading(self.roms(tmp_path / "roms.nc", sea=sea))
+        assert 0.1 < field.land.mean() < 0.5
+        assert not reading(self.roms(tmp_path / "all.nc")).land.any()
 
     def test_land_of_a_grid_that_bends(self, tmp_path):
         path = self.norkyst(tmp_path / "a.nc")

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from shoal.core.geodesy import Frame
+from shoal.core.geodesy import Frame, near
 from shoal.sea.polygons import Polygon, around, in_meters, read_polygons
-from shoal.sea.window import window_of
+from shoal.sea.window import Window, window_of
 
 MARGIN = 0.1  # of the window's longer side, beyond it
 LEAST_MARGIN = 0.02  # [deg]
@@ -48,10 +48,21 @@ def read_coast(path: str | PathLike[str], frame: Frame, half_x: float, half_y: f
     window = window_of(frame, half_x, half_y)
     everything, notes = read_polygons(path)
     margin = max(LEAST_MARGIN, MARGIN * max(window.east - window.west, window.north - window.south))
-    near = around(everything, window, margin)
-    if not near:
+    land = around(everything, window, margin)
+    if not land:
         notes.append(f"{path.name} has no land near the arena.")
-    return Coast(in_meters(near, frame), notes, _digest(near))
+    elif _ends(everything, window):
+        notes.append(f"The arena reaches beyond the land of {path.name}: there, all of it is sea.")
+    return Coast(in_meters(land, frame), notes, _digest(land))
+
+
+def _ends(polygons: list[Polygon], window: Window) -> bool:
+    """Whether the arena reaches beyond the box around all polygons: a file that is cut there says nothing of it."""
+    shells = np.concatenate([polygon.shell for polygon in polygons])
+    lon, lat = near(shells[:, 0], window.middle), shells[:, 1]
+    return bool(
+        window.west < lon.min() or window.east > lon.max() or window.south < lat.min() or window.north > lat.max()
+    )
 
 
 def _digest(polygons: list[Polygon]) -> str:

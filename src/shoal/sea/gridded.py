@@ -23,7 +23,8 @@ from shoal.sea.span import Span, span_of
 from shoal.sea.turn import angles_of, unstaggered
 from shoal.sea.window import Window, box, window_of
 
-MOST_VALUES = 100_000_000  # of a component in the window: 400 MB
+MOST_VALUES = 50_000_000  # of a component in the window: 200 MB
+NEXT_TO_POLE = 89.99  # [deg]
 QUANTITIES = ("currents", "wind")
 
 Mask = NDArray[np.bool_]
@@ -202,6 +203,7 @@ def _turn(
     one, nil = np.ones(lat.shape), np.zeros(lat.shape)
     known = np.isfinite(lon) & np.isfinite(lat)
     lon, lat = np.where(known, lon, frame.origin[0]), np.where(known, lat, frame.origin[1])
+    lat = np.clip(lat, -NEXT_TO_POLE, NEXT_TO_POLE)  # at the pole itself, east is nowhere
     (a, c), (b, d) = frame.turned(lon, lat, one, nil), frame.turned(lon, lat, nil, one)
     if found.along != TRUE:
         if found.along == UNKNOWN and not (nodes.straight or found.staggered or "angle" in dataset.variables):

@@ -6,11 +6,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
-from shoal.core.crash import is_safe
+from shoal.core.crash import Crashed, elsewhere
 from shoal.core.errors import MissingExtraError, SeaError, ShoalError, reason_of
 
 T = TypeVar("T")
 
+LONGEST = 900.0  # [s] slow disks may take long
+AGAIN = "download or export it again"
 NETCDF = (b"CDF", b"\x89HDF")
 INSTEAD = {
     b"GRIB": "is a GRIB file; convert it: cdo -f nc copy FILE.grib FILE.nc, or grib_to_netcdf",
@@ -22,7 +24,7 @@ INSTEAD = {
 
 
 def from_netcdf(path: Path, function: Callable[..., T], *arguments: Any) -> T:
-    """Return what `function(dataset, path, *arguments)` makes of an open netCDF4.Dataset; it is tried elsewhere first.
+    """Return what `function(dataset, path, *arguments)` makes of an open netCDF4.Dataset, in another process.
 
     Raises
     ------
@@ -37,15 +39,14 @@ def from_netcdf(path: Path, function: Callable[..., T], *arguments: Any) -> T:
         problem, _, fix = (hint or "is not a NetCDF file; give one that follows the CF conventions").partition("; ")
         raise SeaError(str(path), problem, fix)
     _netcdf4()
-    if not is_safe(_applied, path, function, arguments):
-        raise SeaError(str(path), "is damaged: the NetCDF library fails on it", "download or export it again")
     try:
-        return _applied(path, function, arguments)
-    except ShoalError:
+        return elsewhere(_applied, path, function, arguments, longest=LONGEST)  # type: ignore[no-any-return]
+    except (ShoalError, MemoryError):
         raise
+    except Crashed as error:
+        raise SeaError(str(path), "is damaged: the NetCDF library fails on it", AGAIN) from error
     except Exception as error:  # what netCDF4 raises on a damaged file has no common class
-        problem = f"cannot be read ({reason_of(error)})"
-        raise SeaError(str(path), problem, "download or export it again") from error
+        raise SeaError(str(path), f"cannot be read ({reason_of(error)})", AGAIN) from error
 
 
 def check_there(path: Path) -> None:
@@ -65,7 +66,7 @@ def check_there(path: Path) -> None:
             similar = difflib.get_close_matches(path.name, there, n=1)
             raise SeaError(str(path), "no such file", f"did you mean {similar[0]}?" if similar else "check the path")
         if not path.stat().st_size:
-            raise SeaError(str(path), "is empty", "download or export it again")
+            raise SeaError(str(path), "is empty", AGAIN)
         with path.open("rb"):
             pass
     except (OSError, ValueError) as error:
