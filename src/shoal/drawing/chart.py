@@ -122,9 +122,9 @@ def draw_graticule(axes: "Axes", area: Area) -> None:
     edge_x, edge_y = np.array([-1.0, 0.0, 1.0] * 3) * half_x, np.repeat([-1.0, 0.0, 1.0], 3) * half_y
     lon, lat = (np.asarray(each) for each in frame.geographic(edge_x, edge_y))
     lon = area.origin[0] + (lon - area.origin[0] + 180.0) % 360.0 - 180.0
-    style = {"color": GRAY, "linewidth": 0.4, "linestyle": (0, (1, 3)), "zorder": 0.55}
+    style: dict[str, Any] = {"color": GRAY, "linewidth": 0.4, "linestyle": (0, (1, 3)), "zorder": 0.55}
     box = {"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
-    labels = {"fontsize": 6.5, "color": INK, "textcoords": "offset points", "bbox": box, "zorder": 7}
+    labels: dict[str, Any] = {"fontsize": 6.5, "color": INK, "textcoords": "offset points", "bbox": box, "zorder": 7}
     for degree in _round_degrees(lon.min(), lon.max()):
         x, y = frame.local(np.full(41, degree), np.linspace(lat.min(), lat.max(), 41))
         inside = (np.abs(x) <= half_x) & (np.abs(y) <= half_y)

@@ -127,7 +127,8 @@ def _gridded(
         return None
     from shoal.sea.gridded import read_gridded
 
-    assert frame is not None and sea is not None  # the scenario insists on an origin where there are files,
+    assert frame is not None  # the scenario insists on an origin where there are files,
+    assert sea is not None
     assert sea.start is not None  # and on a start
     duration = scenario.steps * scenario.time_step
     read = read_gridded(file, name, frame, area.width / 2, area.height / 2, sea.start, duration)
