@@ -56,7 +56,17 @@ def _base(kind: Any) -> type[Frozen]:
     return FloatingTarget if "radius" in get_type_hints(kind.options) else FixedTarget
 
 
-_FIRST = ("still", "waypoint", "line", "walk", "levy", "evasive", "drift", "track")  # as pages and errors list them
+_FIRST = (
+    "still",
+    "waypoint",
+    "line",
+    "walk",
+    "levy",
+    "evasive",
+    "drift",
+    "adrift",
+    "track",
+)  # as pages and errors list them
 TARGETS = models_of(KINDS, _base, PROBLEMS, suffix="Target", module=__name__, first=_FIRST)
 globals().update({model.__name__: model for model in TARGETS.values()})  # where pickle looks for them
 
