@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from shoal.core.errors import ScenarioError, ShoalError
+from shoal.core.errors import ScenarioError, TrackError
 from shoal.core.geodesy import Frame
 from shoal.core.text import cut
 from shoal.scenario.on_track import open_track
@@ -133,9 +133,7 @@ def _start_of(scenario: Scenario) -> datetime:
         if target.kind == "track":
             try:
                 return moment_of(open_track(target, scenario.area.origin).start)
-            except ShoalError as error:
+            except (TrackError, ScenarioError) as error:
                 where, problem, _ = error.args
-                raise ScenarioError(
-                    where, f"{problem}; its start is the run's", f"restore the file, or {fix}"
-                ) from error
+                raise ScenarioError(where, f"{problem}, and it says when the run begins", fix) from error
     raise ScenarioError(scenario.name, "says not when it takes place: it has neither a start nor a recorded track", fix)

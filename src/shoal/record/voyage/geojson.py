@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 from shoal.record.voyage.anchor import iso, iso_all
@@ -54,7 +55,7 @@ def _lines(voyages: Voyages, m: int, words: list[str]) -> list[list[Point]]:
         parts = (voyages.lon[piece, m], voyages.lat[piece, m], voyages.times[piece], voyages.on_target[piece, m])
         points = list(zip(*(part.tolist() for part in parts[:3]), words[piece], parts[3].tolist(), strict=True))
         line = [points[0]]
-        for last, point in zip(points, points[1:], strict=False):
+        for last, point in pairwise(points):
             if abs(point[0] - last[0]) > 180.0:
                 end, begin = _cut(last, point)
                 lines.append([*line, end])

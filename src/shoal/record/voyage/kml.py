@@ -11,7 +11,7 @@ NAMESPACES = 'xmlns="http://www.opengis.net/kml/2.2" xmlns:gx="http://www.google
 
 
 def kml_lines(voyages: Voyages) -> Iterator[str]:
-    """Yield the text of a file: a folder per fleet, one of targets; stretches without a break are tracks of their own."""
+    """Yield the text of a file: a folder per fleet and one of targets, a track per stretch without a break."""
     times = iso_all(voyages.times)
     fleets = list(dict.fromkeys(craft.fleet for craft in voyages.crafts))
     yield f'<?xml version="1.0" encoding="UTF-8"?>\n<!-- Shoal -->\n<kml {NAMESPACES}>\n<Document>\n'

@@ -108,7 +108,7 @@ def voyages_of(frames: Trajectory, facts: Facts, anchor: Anchor, title: str) -> 
     ------
     ScenarioError : a time lies after the year 9999
     """
-    seconds = np.asarray(frames.step) * facts.time_step
+    seconds: Floats = np.asarray(frames.step, np.float64) * facts.time_step
     target_vx, target_vy = _mean_velocities(frames, seconds)
     there = np.hstack([frames.alive, frames.target_present]).astype(np.bool_)
     lon, lat, speed, course = _on_earth(
