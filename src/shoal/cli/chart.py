@@ -106,4 +106,4 @@ def _serve(
             moments += play(begin(), broadcast, speed)
         broadcast.finish()
         missed = f"; {broadcast.missed:,} were missed by slow ones" if broadcast.missed else ""
-        note(f"chart: {moments:,} moments for {broadcast.met} plotters{missed}")
+        note(f"chart: {moments:,} moments for {broadcast.met} plotter{'s' * (broadcast.met != 1)}{missed}")

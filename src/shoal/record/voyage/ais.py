@@ -19,6 +19,7 @@ BUOYS, TARGETS = 979_000_000, 799_000_000
 LONGEST_NAME = 20
 FASTEST = 102.2  # [kn] and faster
 NO_SPEED, NO_COURSE, NO_HEADING = 102.3, 360.0, 511
+UNTOLD = {"status": 15, "turn": -128}  # of class A: how it is under way, and how it turns
 ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^- !\"#$%&'()*+,-./0123456789:;<=>?"
 
 
@@ -54,6 +55,8 @@ def positions(voyages: Voyages, at: int) -> Iterator[str]:
             continue
         heading = NO_HEADING if math.isnan(course) else round(course) % 360
         report = {"type": 18 if craft.kind == "buoy" else 1, "mmsi": mmsi_of(craft), "lon": lon, "lat": lat}
+        if craft.kind == "target":
+            report |= UNTOLD
         motion = {"speed": _knots(speed), "course": _course(course), "heading": heading, "second": second}
         yield from _sentences(report | motion)
 
