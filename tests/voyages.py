@@ -32,10 +32,20 @@ def made_record(
     no, yes = np.zeros((frames, agents), np.bool_), np.ones((frames, agents), np.bool_)
     trajectory = Trajectory(
         step=steps,
-        **{"x": x[:, :-1], "y": y[:, :-1], "vx": vx, "vy": vy, "command_x": vx, "command_y": vy},
-        **{"on_target": no.copy(), "engaged": no, "alive": yes.copy(), "neighbors": np.full((frames, agents), 2)},
+        x=x[:, :-1],
+        y=y[:, :-1],
+        vx=vx,
+        vy=vy,
+        command_x=vx,
+        command_y=vy,
+        on_target=no.copy(),
+        engaged=no,
+        alive=yes,
+        neighbors=np.full((frames, agents), 2),
         links=np.zeros((frames, agents, 0), np.uint8),
-        **{"target_x": x[:, -1:], "target_y": y[:, -1:], "target_present": np.ones((frames, 1), np.bool_)},
+        target_x=x[:, -1:],
+        target_y=y[:, -1:],
+        target_present=np.ones((frames, 1), np.bool_),
         memory={},
     )
     facts = facts_of(chosen)._replace(fleets=tuple(names))

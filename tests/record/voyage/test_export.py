@@ -6,6 +6,7 @@ import math
 import re
 from datetime import datetime
 from functools import reduce
+from itertools import pairwise
 from operator import xor
 from xml.etree import ElementTree
 
@@ -48,8 +49,12 @@ def called(kind, craft):
     mmsi = (979_000_000 if craft.kind == "buoy" else 799_000_000) + craft.number
     by_name = f"name={craft.name}"
     return {
-        **{"kml": by_name, "gpx": by_name, "nmea": f"mmsi={mmsi}", "netcdf": f"trajectory_id={craft.id}"},
-        **{"csv": f"id={craft.id}", "geojson": f"id={craft.id}"},
+        "kml": by_name,
+        "gpx": by_name,
+        "nmea": f"mmsi={mmsi}",
+        "netcdf": f"trajectory_id={craft.id}",
+        "csv": f"id={craft.id}",
+        "geojson": f"id={craft.id}",
     }[kind]
 
 
@@ -135,7 +140,7 @@ class TestGeoJson:
         assert one[-1][1] == other[0][1] == pytest.approx((one[0][1] * 1 + other[1][1] * 3) / 4, abs=2e-8)
         times = feature["properties"]["coordTimes"]
         assert times == [[START, "2015-11-16T06:00:00.750000Z"], ["2015-11-16T06:00:00.750000Z", *rest(2)]]
-        assert all(abs(a[0] - b[0]) < 1.0 for line in (one, other) for a, b in zip(line, line[1:], strict=False))
+        assert all(abs(a[0] - b[0]) < 1.0 for line in (one, other) for a, b in pairwise(line))
 
     def test_a_fix_by_itself_is_a_line_all_the_same(self, tmp_path):
         record = made_record()
@@ -244,9 +249,8 @@ class TestNmea:
                 parts = []
 
     def test_everybody_has_a_number_and_a_name(self, tmp_path):
-        named = {
-            each.mmsi: each.shipname for each in self.messages(tmp_path, made_record()) if each.msg_type in (24, 5)
-        }
+        messages = self.messages(tmp_path, made_record())
+        named = {each.mmsi: each.shipname for each in messages if each.msg_type in (24, 5)}
         fast = {979_000_000: "FAST 0", 979_000_001: "FAST 1"}
         slow = {979_000_002: "SLOW 2", 979_000_003: "SLOW 3", 979_000_004: "SLOW 4"}
         assert named == fast | slow | {799_000_000: "TARGET 0"}
@@ -334,5 +338,5 @@ class TestRefusals:
         record = made_record()
         record.trajectories[0].alive[:] = False
         record.trajectories[0].target_present[:] = False
-        with pytest.raises(RecordError, match="nobody|anybody"):
+        with pytest.raises(RecordError, match="anybody"):
             shoal.export(record, tmp_path / "a.csv", start=START)
