@@ -9,7 +9,7 @@ from plotters import Plotter, decoded
 from scenarios import scenario
 from shoal.core.errors import ScenarioError
 from shoal.record.voyage.anchor import anchor_of
-from shoal.run.facts import facts_of
+from shoal.record.voyage.voyages import crafts_of
 from shoal.run.simulation import Simulation
 from shoal.viewer.broadcast import Broadcast
 from shoal.viewer.chart import check_pace, greeting, live_moments, play, recorded_moments
@@ -38,7 +38,7 @@ class TestRecorded:
     def test_every_buoy_and_second_is_within_the_resolution_of_ais(self):
         record = made_record(range(0, 300, 5), counts=(15, 35), reach=2_000.0, changes={"network.neighbors": 20})
         frames = record.trajectories[0]
-        with Broadcast("127.0.0.1", 0, greeting(record.facts, 1)) as broadcast:
+        with Broadcast("127.0.0.1", 0, greeting(crafts_of(record.facts, 1))) as broadcast:
             plotter = Plotter(broadcast.port)
             broadcast.wait_for_somebody()
             assert play(recorded_moments(record, 0, 1.0, anchor(record.scenario)), broadcast, 200.0) == 30
@@ -74,9 +74,8 @@ class TestRecorded:
 class TestLive:
     def test_a_simulation_is_heard_as_it_goes(self):
         chosen = scenario(changes={"steps": 25, "area.origin": list(ORIGIN)})
-        facts = facts_of(chosen)
         frames = Simulation(chosen).advance(25, every=10)
-        moments = list(live_moments(Simulation(chosen), facts, 1.0, anchor(chosen)))
+        moments = list(live_moments(Simulation(chosen), 1.0, anchor(chosen)))
         assert [now for now, _ in moments] == [0.0, 1.0, 2.0]
         for at, (_, message) in enumerate(moments):
             reports = list(decoded(message.split(b"\r\n")[:-1]))
@@ -91,7 +90,7 @@ class TestLive:
         simulation = Simulation(chosen)
         simulation.advance(20)
         late = datetime(2015, 11, 16, 6, 0, 59, tzinfo=UTC)
-        ((now, message),) = live_moments(simulation, facts_of(chosen), 0.55, anchor(chosen, start=late))
+        ((now, message),) = live_moments(simulation, 0.55, anchor(chosen, start=late))
         assert now == 2.0
         assert {each.second for each in decoded(message.split())} == {1}
 

@@ -55,7 +55,7 @@ def chart(
     load_compiler()
     from shoal.core.errors import ScenarioError
     from shoal.record.voyage.anchor import anchor_of, place_of
-    from shoal.record.voyage.voyages import frames_of
+    from shoal.record.voyage.voyages import crafts_of, frames_of
     from shoal.run.facts import facts_of
     from shoal.run.simulation import Simulation
     from shoal.scenario.load import load
@@ -82,9 +82,9 @@ def chart(
 
         def begin() -> "Iterator[Moment]":
             simulation = simulations.pop() if simulations else Simulation(scenario, run)
-            return live_moments(simulation, facts, every, anchor)
+            return live_moments(simulation, every, anchor)
 
-    _serve(begin, greeting(facts, len(scenario.targets)), (host, tcp), speed, loop)
+    _serve(begin, greeting(crafts_of(facts, len(scenario.targets))), (host, tcp), speed, loop)
 
 
 def _serve(

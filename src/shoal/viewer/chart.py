@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from shoal.core.errors import ScenarioError
-from shoal.metrics.contract import Facts
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.record.voyage.ais import names, positions
 from shoal.record.voyage.anchor import Anchor
-from shoal.record.voyage.voyages import crafts_of, frames_of, voyages_of
+from shoal.record.voyage.voyages import Craft, frames_of, voyages_of
+from shoal.run.facts import facts_of
 from shoal.run.simulation import Simulation
 from shoal.viewer.broadcast import Broadcast
 
@@ -21,14 +21,14 @@ END = "\r\n"  # of a line, as NMEA 0183 has it
 Moment = tuple[float, bytes]  # seconds since step 0, and the sentences of who is there
 
 
-def greeting(facts: Facts, targets: int) -> bytes:
+def greeting(crafts: list[Craft]) -> bytes:
     """Return the sentences that say who is who.
 
     Raises
     ------
     MissingExtraError : pyais is not installed
     """
-    return _message(names(crafts_of(facts, targets)))
+    return _message(names(crafts))
 
 
 def recorded_moments(record: Record, run: int, every: float, anchor: Anchor) -> Iterator[Moment]:
@@ -48,8 +48,9 @@ def recorded_moments(record: Record, run: int, every: float, anchor: Anchor) -> 
             yield now, _message(positions(voyages, at))
 
 
-def live_moments(simulation: Simulation, facts: Facts, every: float, anchor: Anchor) -> Iterator[Moment]:
+def live_moments(simulation: Simulation, every: float, anchor: Anchor) -> Iterator[Moment]:
     """Yield moments of a simulation as it goes, `every` seconds apart or more, from where it is to its end."""
+    facts = facts_of(simulation.scenario)
     steps = max(1, math.ceil(every / facts.time_step * (1.0 - 1e-9)))
     seen: list[Trajectory] = []
     while simulation.number < simulation.scenario.steps:
