@@ -19,8 +19,8 @@ actor adaptive add address any around array arrived assembled asset atomic bar b
 chart check
 choice choose clean cli client column command compare compared compiled compiler compiling console content
 core count crash csv data dataframe dataset declared difference disc dispatch dive doc drag drawing duration each edit
-effort encoder ended error executor experiment export exported extra figure file film fixed folder format frontier frozen
-geojson gpx graph ground guard histogram info inner installed interval is kept keyword kill kml label layout
+effort encoder ended error executor experiment export exported extra figure file film fixed folder format frontier
+frozen geojson gpx graph ground guard histogram info inner installed interval is kept keyword kill kml label layout
 legend listen listing live load lock locked look main map mark meaning measure message meta missing move
 moving name named netcdf new nmea no now numba older one option output over page paired panel param pause
 picture place placement plain play plot plugin print private progress published quantity range read reason recorded

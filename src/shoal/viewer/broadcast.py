@@ -10,6 +10,7 @@ from typing import Self
 
 from shoal.viewer.address import listen
 
+LONGEST = 3600.0  # [s] that the system is asked to wait at once
 FAREWELL = 5.0  # [s] that a listener has to take what is left at the end
 
 
@@ -79,7 +80,7 @@ class Broadcast:
 
     def _serve(self, enough: Callable[[], bool], until: float | None = None) -> None:
         while not enough():
-            left = None if until is None else max(0.0, until - time.monotonic())
+            left = None if until is None else min(max(0.0, until - time.monotonic()), LONGEST)
             for key, events in self._waiting.select(left):
                 if key.fileobj is self._listener:
                     self._greet()

@@ -39,6 +39,19 @@ class TestPlaces:
     def test_a_given_origin_goes_before_that_of_the_scenario(self):
         assert np.abs(voyages(made_record(), origin=(10.0, 60.0)).lon - 10.0).max() < 0.1
 
+    def test_in_blocks_are_the_same(self, monkeypatch):
+        record = made_record(steps=range(7))
+        whole = voyages(record)
+        monkeypatch.setattr("shoal.record.voyage.voyages.BLOCK", 13)  # two frames of six
+        for one, other in zip(whole[2:], voyages(record)[2:], strict=True):
+            np.testing.assert_array_equal(one, other)
+
+    def test_half_around_the_earth_are_refused(self):
+        record = made_record()
+        record.trajectories[0].x[1, 1] = 1.2e7
+        with pytest.raises(ScenarioError, match="reaches 12,000 km from its origin"):
+            voyages(record)
+
 
 class TestMotion:
     def test_course_and_speed_are_over_ground_also_far_from_the_origin(self):

@@ -22,6 +22,7 @@ def write_netcdf(voyages: Voyages, path: Path) -> None:
     Raises
     ------
     MissingExtraError : xarray or netCDF4 is not installed
+    OSError : it cannot be written
     """
     xarray = _library("xarray")
     _library("netCDF4")
@@ -92,7 +93,10 @@ def write_netcdf(voyages: Voyages, path: Path) -> None:
     dataset["time"].encoding["_FillValue"] = None  # never missing
     for name in who:
         dataset[name].encoding["dtype"] = str
-    dataset.to_netcdf(path, format="NETCDF4", engine="netcdf4")
+    try:
+        dataset.to_netcdf(path, format="NETCDF4", engine="netcdf4")
+    except RuntimeError as error:  # netCDF4's, on a full disk
+        raise OSError(str(error)) from error
 
 
 def _library(name: str) -> Any:

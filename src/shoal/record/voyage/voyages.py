@@ -16,6 +16,8 @@ from shoal.record.voyage.anchor import Anchor
 KNOT = 1852.0 / 3600.0  # [m/s]
 DIGITS = 8  # of degrees: 1.1 mm
 RADIUS, SQUARED = 6378137.0, 0.0066943799901413165  # of WGS84: equator [m], eccentricity squared
+QUARTER_OF_EARTH = 1e7  # [m] from pole to equator
+BLOCK = 250_000  # places worked out at once
 STILL = 1e-3  # [m/s] slower than this has no course
 
 Floats = npt.NDArray[np.float64]
@@ -106,27 +108,36 @@ def voyages_of(frames: Trajectory, facts: Facts, anchor: Anchor, title: str) -> 
 
     Raises
     ------
-    ScenarioError : a time lies after the year 9999
+    ScenarioError : a time lies after the year 9999, or a place a quarter of the Earth away
     """
     seconds: Floats = np.asarray(frames.step, np.float64) * facts.time_step
-    target_vx, target_vy = _mean_velocities(frames, seconds)
+    times = anchor.times(seconds)
+    pairs = ((frames.x, frames.target_x), (frames.y, frames.target_y))
+    velocities = zip((frames.vx, frames.vy), _mean_velocities(frames, seconds), strict=True)
+    sources = (*pairs, *velocities)
     there = np.hstack([frames.alive, frames.target_present]).astype(np.bool_)
-    lon, lat, speed, course = _on_earth(
-        anchor,
-        *(np.hstack([frames.x, frames.target_x]), np.hstack([frames.y, frames.target_y])),
-        *(np.hstack([frames.vx, target_vx]), np.hstack([frames.vy, target_vy])),
-    )
-    return Voyages(
-        title=plain(title),
-        crafts=crafts_of(facts, frames.target_x.shape[1]),
-        times=anchor.times(seconds),
-        there=there,
-        **{
-            name: np.where(there, values, np.nan)
-            for name, values in (("lon", lon), ("lat", lat), ("speed", speed), ("course", course))
-        },
-        on_target=np.hstack([frames.on_target, np.zeros(frames.target_x.shape, np.bool_)]) & there,
-    )
+    places = [np.empty(there.shape) for _ in range(4)]
+    rows = max(1, BLOCK // there.shape[1])
+    for block in (slice(first, first + rows) for first in range(0, len(there), rows)):
+        away = ~there[block]
+        x, y, vx, vy = (np.where(away, 0.0, np.hstack([each[block] for each in pair])) for pair in sources)
+        _check_near(x, y)
+        for whole, part in zip(places, _on_earth(anchor, x, y, vx, vy), strict=True):
+            whole[block] = np.where(away, np.nan, part)
+    lon, lat, speed, course = places
+    on_target = np.hstack([frames.on_target, np.zeros(frames.target_x.shape, np.bool_)]) & there
+    crafts = crafts_of(facts, frames.target_x.shape[1])
+    return Voyages(plain(title), crafts, times, there, lon, lat, speed, course, on_target)
+
+
+def _check_near(x: Floats, y: Floats) -> None:
+    farthest = float(np.hypot(x, y).max(initial=0.0))
+    if not farthest < QUARTER_OF_EARTH:
+        raise ScenarioError(
+            "area",
+            f"reaches {farthest / 1e3:,.0f} km from its origin, where local meters mean nothing",
+            "make it smaller",
+        )
 
 
 def _mean_velocities(frames: Trajectory, seconds: Floats) -> tuple[Floats, Floats]:
@@ -148,7 +159,6 @@ def _on_earth(anchor: Anchor, x: Floats, y: Floats, vx: Floats, vy: Floats) -> t
 
     north = M dlat,  east = N cos(lat) dlon
     """
-    x, y = np.nan_to_num(x), np.nan_to_num(y)  # of who is absent, which is said elsewhere
     moved = np.isfinite(vx) & np.isfinite(vy)
     lon, lat = (np.asarray(each, np.float64) for each in anchor.frame.geographic(x, y))
     further = anchor.frame.geographic(x + np.where(moved, vx, 0.0), y + np.where(moved, vy, 0.0))
