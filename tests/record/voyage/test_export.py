@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import re
+import sys
 from datetime import datetime
 from functools import reduce
 from itertools import pairwise
@@ -14,7 +15,7 @@ import numpy as np
 import pytest
 
 import shoal
-from shoal.core.errors import RecordError, ScenarioError, UnknownNameError
+from shoal.core.errors import MissingExtraError, RecordError, ScenarioError, UnknownNameError
 from shoal.record.voyage.ais import ship_name
 from shoal.record.voyage.anchor import anchor_of
 from shoal.record.voyage.voyages import Craft, voyages_of
@@ -333,6 +334,22 @@ class TestRefusals:
         with pytest.raises(RecordError, match="exists already"):
             shoal.export(made_record(), tmp_path / "a.csv", start=START)
         assert (tmp_path / "a.csv").read_text() == "mine"
+
+    @pytest.mark.parametrize(
+        ("kind", "modules", "extra"),
+        [
+            ("csv", ["pyproj"], "maritime"),
+            ("nmea", ["pyais", "pyais.encode"], "maritime"),
+            ("netcdf", ["xarray"], "xarray"),
+            ("netcdf", ["netCDF4"], "xarray"),
+        ],
+    )
+    def test_of_what_needs_a_library_that_is_absent(self, tmp_path, monkeypatch, kind, modules, extra):
+        for name in modules:
+            monkeypatch.setitem(sys.modules, name, None)
+        with pytest.raises(MissingExtraError, match=rf"^{modules[0]}: .*\n  fix: pip install '\.\[{extra}\]'"):
+            shoal.export(made_record(), tmp_path / f"a{SUFFIXES[kind]}", start=START)
+        assert not list(tmp_path.iterdir())
 
     def test_of_a_run_in_which_nobody_is_there(self, tmp_path):
         record = made_record()
