@@ -39,6 +39,11 @@ class TestPlaces:
     def test_a_given_origin_goes_before_that_of_the_scenario(self):
         assert np.abs(voyages(made_record(), origin=(10.0, 60.0)).lon - 10.0).max() < 0.1
 
+    def test_are_never_at_180_degrees_but_at_their_negative(self):
+        record = made_record(origin=(180.0, 0.0))
+        record.trajectories[0].x[0, 0] = -1e-4  # 0.1 mm west of it
+        assert voyages(record).lon[0, 0] == -180.0
+
     def test_in_blocks_are_the_same(self, monkeypatch):
         record = made_record(steps=range(7))
         whole = voyages(record)

@@ -75,18 +75,11 @@ def ship_name(craft: Craft) -> str:
 
 
 def _knots(speed: float) -> float:
-    if math.isnan(speed):
-        return NO_SPEED
-    return _tenths(min(round(speed / KNOT, 1), FASTEST))
+    return NO_SPEED if math.isnan(speed) else min(round(speed / KNOT, 1), FASTEST)
 
 
 def _course(course: float) -> float:
-    return NO_COURSE if math.isnan(course) else _tenths(round(course, 1) % 360.0)
-
-
-def _tenths(value: float) -> float:
-    """A number of tenths that stays the same where pyais cuts off what is behind them."""
-    return value + 0.01
+    return NO_COURSE if math.isnan(course) else round(course, 1) % 360.0
 
 
 def _sentences(message: dict[str, Any]) -> list[str]:
