@@ -2,7 +2,6 @@
 
 import csv
 import json
-import math
 import re
 import sys
 from datetime import datetime
@@ -187,15 +186,18 @@ class TestXml:
 class TestCsv:
     def test_a_row_per_time_and_craft_that_was_there(self, tmp_path):
         record = made_record()
-        record.trajectories[0].alive[1, 0] = False
-        record.trajectories[0].vx[2, 0], record.trajectories[0].vy[2, 0] = 1852.0 / 3600.0, 0.0
+        frames = record.trajectories[0]
+        frames.x[2, 0], frames.y[2, 0] = frames.x[1, 0] + 1852.0 / 3600.0, frames.y[1, 0]  # in a second
+        frames.vx[2, 0], frames.vy[2, 0] = 0.0, 1.0
+        frames.alive[1, 1] = False
         record.trajectories[0].on_target[2, 0] = True
         with exported(tmp_path, record, "csv").open(newline="") as file:
             rows = list(csv.DictReader(file))
         assert len(rows) == 3 * 6 - 1
-        last = rows[1]
+        last = rows[2]
         assert (last["id"], last["time"], last["sog_kn"]) == ("agent-0", rest(2)[1], "1.000")
         assert float(last["cog_deg"]) == pytest.approx(90.0, abs=0.1)
+        assert float(last["heading_deg"]) % 360.0 == pytest.approx(0.0, abs=0.1)
         assert last["on_target"] == "1"
         assert [rows[-3][name] for name in ("id", "sog_kn", "cog_deg", "on_target")] == ["target-0", "", "", ""]
 
@@ -259,16 +261,20 @@ class TestNmea:
     def test_motion_is_in_knots_and_degrees_or_said_to_be_unknown(self, tmp_path):
         record = made_record(steps=[0, 10])
         frames = record.trajectories[0]
-        frames.vx[0, :2], frames.vy[0, :2] = (0.0, 100.0), (0.0, 0.0)
+        frames.x[1, :2], frames.y[1, :2] = frames.x[0, :2] + (0.0, 100.0), frames.y[0, :2]
+        frames.vx[1, :2], frames.vy[1, :2] = (0.0, 0.0), (0.0, -1.0)
         reports = [each for each in self.messages(tmp_path, record) if each.msg_type in (1, 18)]
-        still, fast, target = reports[0], reports[1], reports[5]
-        assert (still.speed, still.course, still.heading) == (0.0, 360.0, 511)
-        assert (fast.speed, fast.heading) == (102.2, 90)
-        assert fast.course == pytest.approx(90.0, abs=0.11)
-        assert (target.msg_type, target.speed, target.course, target.turn) == (1, 102.3, 360.0, -128.0)
         assert [each.second for each in reports] == [0] * 6 + [1] * 6
-        for each, vx, vy in zip(reports[6:11], frames.vx[1], frames.vy[1], strict=True):
-            assert each.speed == pytest.approx(math.hypot(vx, vy) * 3600 / 1852, abs=0.0501)
+        assert {(each.speed, each.course) for each in reports[:6]} == {(102.3, 360.0)}
+        still, fast, target = reports[6], reports[7], reports[11]
+        assert (still.speed, still.course, still.heading) == (0.0, 360.0, 511)
+        assert (fast.speed, fast.heading) == (102.2, 180)
+        assert fast.course == pytest.approx(90.0, abs=0.11)
+        assert (target.msg_type, target.heading, target.turn, target.status) == (1, 511, -128.0, 15)
+        found = truth(record)
+        for m, each in list(enumerate(reports[6:]))[2:]:
+            assert each.speed == pytest.approx(found.speed[1, m] * 3600 / 1852, abs=0.0501)
+            assert each.course == pytest.approx(found.course[1, m], abs=0.0501)
 
     @pytest.mark.parametrize(
         ("fleet", "number", "name"),

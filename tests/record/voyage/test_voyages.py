@@ -47,7 +47,7 @@ class TestPlaces:
     def test_in_blocks_are_the_same(self, monkeypatch):
         record = made_record(steps=range(7))
         whole = voyages(record)
-        monkeypatch.setattr("shoal.record.voyage.voyages.BLOCK", 13)  # two frames of six
+        monkeypatch.setattr("shoal.record.voyage.voyages.BLOCK", 15)  # two crafts of seven frames
         for one, other in zip(whole[2:], voyages(record)[2:], strict=True):
             np.testing.assert_array_equal(one, other)
 
@@ -59,31 +59,37 @@ class TestPlaces:
 
 
 class TestMotion:
-    def test_course_and_speed_are_over_ground_also_far_from_the_origin(self):
+    """Speed and course are over ground, heading is through the water: they differ in a current."""
+
+    def test_speed_and_course_are_those_of_the_geodesic_from_the_frame_before(self):
+        record = made_record(steps=[0, 10, 40], reach=200_000.0, origin=(5.0, 61.0))
+        found = voyages(record)
+        course, _, way = GEOD.inv(found.lon[:-1], found.lat[:-1], found.lon[1:], found.lat[1:])
+        np.testing.assert_allclose(found.speed[1:], way / [[1.0], [3.0]], atol=0.003)
+        assert np.abs((found.course[1:] - course + 180.0) % 360.0 - 180.0).max() < 0.3  # of positions to 1 mm
+        assert np.isnan(found.speed[0]).all()
+        assert np.isnan(found.course[0]).all()
+
+    def test_heading_is_that_of_the_velocity_also_far_from_the_origin(self):
         record = made_record(reach=200_000.0, origin=(5.0, 61.0))
         frames, found = record.trajectories[0], voyages(record)
         frame = anchor_of(record.scenario, start=START).frame
         lon, lat = frame.geographic(frames.x, frames.y)
-        further = frame.geographic(frames.x + frames.vx, frames.y + frames.vy)
-        course, _, way = GEOD.inv(lon, lat, *further)
-        np.testing.assert_allclose(found.speed[:, :-1], way, rtol=1e-5)
-        assert np.abs((found.course[:, :-1] - course + 180.0) % 360.0 - 180.0).max() < 0.01
-        assert np.abs(np.degrees(np.arctan2(frames.vx, frames.vy)) % 360.0 - found.course[:, :-1]).max() > 1.0
+        heading = GEOD.inv(lon, lat, *frame.geographic(frames.x + frames.vx, frames.y + frames.vy))[0]
+        assert np.abs((found.heading[:, :-1] - heading + 180.0) % 360.0 - 180.0).max() < 0.01
+        on_paper = np.degrees(np.arctan2(frames.vx, frames.vy))
+        assert np.abs((found.heading[:, :-1] - on_paper + 180.0) % 360.0 - 180.0).max() > 1.0  # meridians turn
+        assert np.isnan(found.heading[:, -1]).all()  # nobody knows a target's
 
-    def test_who_stands_still_has_no_course(self):
+    def test_who_stands_still_has_a_speed_and_no_direction(self):
         record = made_record()
-        record.trajectories[0].vx[1, 2] = record.trajectories[0].vy[1, 2] = 0.0
+        frames = record.trajectories[0]
+        frames.vx[1, 2] = frames.vy[1, 2] = 0.0
+        frames.x[2, 3], frames.y[2, 3] = frames.x[1, 3], frames.y[1, 3]
         found = voyages(record)
-        assert np.argwhere(np.isnan(found.course[:, :-1])).tolist() == [[1, 2]]
-        assert found.speed[1, 2] == 0.0
-
-    def test_of_a_target_it_is_the_mean_since_the_frame_before(self):
-        record = made_record()
-        x, y = record.trajectories[0].target_x, record.trajectories[0].target_y
-        way = np.hypot(np.diff(x[:, 0]), np.diff(y[:, 0]))
-        found = voyages(record)
-        assert np.isnan(found.speed[0, -1])
-        np.testing.assert_allclose(found.speed[1:, -1], way / 1.0, rtol=1e-5)
+        assert np.argwhere(np.isnan(found.heading[:, :-1])).tolist() == [[1, 2]]
+        assert np.argwhere(np.isnan(found.course[1:])).tolist() == [[1, 3]]
+        assert found.speed[2, 3] == 0.0
 
     def test_a_knot_is_a_nautical_mile_per_hour(self):
         assert pytest.approx(1852.0) == KNOT * 3600.0
@@ -132,7 +138,7 @@ class TestAway:
         record.trajectories[0].alive[1, 3] = False
         record.trajectories[0].target_present[2, 0] = False
         found = voyages(record)
-        for values in (found.lon, found.lat, found.speed, found.course):
+        for values in (found.lon, found.lat, found.speed, found.course, found.heading):
             assert np.isnan(values[1, 3])
             assert np.isnan(values[2, 5])
         assert np.isfinite(found.lon).sum() == found.there.sum() == 3 * 6 - 2

@@ -48,17 +48,16 @@ def positions(voyages: Voyages, at: int) -> Iterator[str]:
     MissingExtraError : pyais is not installed
     """
     second = int(voyages.times[at] // 1_000_000 % 60)
-    columns = (voyages.lon, voyages.lat, voyages.speed, voyages.course)
+    columns = (voyages.lon, voyages.lat, voyages.speed, voyages.course, voyages.heading)
     rows = zip(voyages.crafts, voyages.there[at].tolist(), *(each[at].tolist() for each in columns), strict=True)
-    for craft, there, lon, lat, speed, course in rows:
+    for craft, there, lon, lat, speed, course, heading in rows:
         if not there:
             continue
-        heading = NO_HEADING if math.isnan(course) else round(course) % 360
         report = {"type": 18 if craft.kind == "buoy" else 1, "mmsi": mmsi_of(craft), "lon": lon, "lat": lat}
         if craft.kind == "target":
             report |= UNTOLD
-        motion = {"speed": _knots(speed), "course": _course(course), "heading": heading, "second": second}
-        yield from _sentences(report | motion)
+        report |= {"speed": _knots(speed), "course": _course(course), "heading": _heading(heading), "second": second}
+        yield from _sentences(report)
 
 
 def tagged(sentence: str, microseconds: int, *, fine: bool) -> str:
@@ -80,6 +79,10 @@ def _knots(speed: float) -> float:
 
 def _course(course: float) -> float:
     return NO_COURSE if math.isnan(course) else round(course, 1) % 360.0
+
+
+def _heading(heading: float) -> int:
+    return NO_HEADING if math.isnan(heading) else round(heading) % 360
 
 
 def _sentences(message: dict[str, Any]) -> list[str]:

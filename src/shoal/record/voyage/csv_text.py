@@ -8,7 +8,7 @@ from io import StringIO
 from shoal.record.voyage.anchor import iso_all
 from shoal.record.voyage.voyages import DIGITS, KNOT, Voyages
 
-COLUMNS = ("time", "id", "kind", "fleet", "name", "lon", "lat", "sog_kn", "cog_deg", "on_target")
+COLUMNS = ("time", "id", "kind", "fleet", "name", "lon", "lat", "sog_kn", "cog_deg", "heading_deg", "on_target")
 FORMULA = ("=", "+", "-", "@", "\t", "\r")  # a cell that begins so is one to a spreadsheet
 
 
@@ -31,11 +31,11 @@ def csv_lines(voyages: Voyages) -> Iterator[str]:
     for m, craft in voyages.known():
         who = (craft.id, craft.kind, _text(craft.fleet), _text(craft.name))
         for piece in voyages.pieces(m):
-            columns = (voyages.lon, voyages.lat, voyages.speed, voyages.course, voyages.on_target)
+            columns = (voyages.lon, voyages.lat, voyages.speed, voyages.course, voyages.heading, voyages.on_target)
             values = zip(times[piece], *(column[piece, m].tolist() for column in columns), strict=True)
-            for time, lon, lat, speed, course, on in values:
+            for time, lon, lat, speed, course, heading, on in values:
                 place = (f"{lon:.{DIGITS}f}", f"{lat:.{DIGITS}f}")
-                motion = (_number(speed / KNOT, 3), _number(course, 1))
+                motion = (_number(speed / KNOT, 3), _number(course, 1), _number(heading, 1))
                 yield line(time, *who, *place, *motion, int(on) if craft.kind == "buoy" else "")
 
 

@@ -15,7 +15,7 @@ OVER = ("trajectory", "obs")
 
 
 def write_netcdf(voyages: Voyages, path: Path) -> None:
-    """Write a file: lon, lat and time of every craft, its speed and course over ground, and what it reports.
+    """Write a file: lon, lat and time of every craft, its speed, course and heading, and what it reports.
 
     Where a craft was not there, all but its time is missing.
 
@@ -50,6 +50,10 @@ def write_netcdf(voyages: Voyages, path: Path) -> None:
             "course": (
                 *of_all(voyages.course),
                 {"standard_name": "platform_course", "units": "degree", "long_name": "course over ground, from north"},
+            ),
+            "heading": (
+                *of_all(voyages.heading),
+                {"units": "degree", "long_name": "direction of the buoy's velocity through the water, from north"},
             ),
             "on_target": (
                 OVER,

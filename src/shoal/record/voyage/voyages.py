@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.core.errors import RecordError, ScenarioError
+from shoal.core.geodesy import Frame, meters_per_degree
 from shoal.core.text import plain
 from shoal.metrics.contract import Facts
 from shoal.record.record import Record
@@ -15,7 +16,6 @@ from shoal.record.voyage.anchor import Anchor
 
 KNOT = 1852.0 / 3600.0  # [m/s]
 DIGITS = 8  # of degrees: 1.1 mm
-RADIUS, SQUARED = 6378137.0, 0.0066943799901413165  # of WGS84: equator [m], eccentricity squared
 QUARTER_OF_EARTH = 1e7  # [m] from pole to equator
 BLOCK = 250_000  # places worked out at once
 STILL = 1e-3  # [m/s] slower than this has no course
@@ -45,8 +45,9 @@ class Voyages(NamedTuple):
     crafts : who
     times : (K,) Unix time [us]
     there : (K, M) lost agents, those that have not joined and absent targets are not
-    lon, lat : (K, M) [deg], from -180 to below 180
-    speed : (K, M) [m/s] over ground; course : (K, M) [deg] from north, clockwise; NaN where unknown, or none
+    lon, lat : (K, M) [deg], from -180 to below 180; angles are from north, clockwise, and NaN of who stands still
+    speed, course : (K, M) [m/s], [deg] over ground, the mean since the frame before; NaN at the first and after a gap
+    heading : (K, M) [deg] of an agent's velocity through the water in the step before
     on_target : (K, M) what an agent reports
     """
 
@@ -58,6 +59,7 @@ class Voyages(NamedTuple):
     lat: Floats
     speed: Floats
     course: Floats
+    heading: Floats
     on_target: npt.NDArray[np.bool_]
 
     def known(self) -> Iterator[tuple[int, Craft]]:
@@ -103,31 +105,40 @@ def frames_of(record: Record, run: int, every: int | None = None) -> Trajectory:
 def voyages_of(frames: Trajectory, facts: Facts, anchor: Anchor, title: str) -> Voyages:
     """Return where everybody was.
 
-    The velocity of an agent is the one that it made in the step before a frame, that of a target its mean since the
-    frame before; of neither more is known.
-
     Raises
     ------
     ScenarioError : a time lies after the year 9999, or a place a quarter of the Earth away
     """
     seconds: Floats = np.asarray(frames.step, np.float64) * facts.time_step
-    times = anchor.times(seconds)
-    pairs = ((frames.x, frames.target_x), (frames.y, frames.target_y))
-    velocities = zip((frames.vx, frames.vy), _mean_velocities(frames, seconds), strict=True)
-    sources = (*pairs, *velocities)
     there = np.hstack([frames.alive, frames.target_present]).astype(np.bool_)
-    places = [np.empty(there.shape) for _ in range(4)]
-    rows = max(1, BLOCK // there.shape[1])
-    for block in (slice(first, first + rows) for first in range(0, len(there), rows)):
-        away = ~there[block]
-        x, y, vx, vy = (np.where(away, 0.0, np.hstack([each[block] for each in pair])) for pair in sources)
-        _check_near(x, y)
-        for whole, part in zip(places, _on_earth(anchor, x, y, vx, vy), strict=True):
-            whole[block] = np.where(away, np.nan, part)
-    lon, lat, speed, course = places
-    on_target = np.hstack([frames.on_target, np.zeros(frames.target_x.shape, np.bool_)]) & there
-    crafts = crafts_of(facts, frames.target_x.shape[1])
-    return Voyages(plain(title), crafts, times, there, lon, lat, speed, course, on_target)
+    known = there.copy()  # how they came here
+    known[:1] = False
+    known[1:] &= there[:-1]
+    none = np.zeros(frames.target_x.shape)
+    pairs = ((frames.x, frames.target_x), (frames.y, frames.target_y), (frames.vx, none), (frames.vy, none))
+    x, y, vx, vy = (np.where(there, np.hstack(pair), 0.0) for pair in pairs)
+    _check_near(x, y)
+    lon, lat, speed, course, heading = (np.empty(there.shape) for _ in range(5))
+    crafts = max(1, BLOCK // max(len(there), 1))
+    for some in (np.s_[:, first : first + crafts] for first in range(0, there.shape[1], crafts)):
+        here = x[some], y[some], *anchor.frame.geographic(x[some], y[some])
+        lon[some], lat[some] = (np.where(there[some], part, np.nan) for part in here[2:])
+        way = _way(anchor.frame, *here, *_since_before(x[some], y[some], seconds))
+        speed[some], course[some] = (np.where(known[some], part, np.nan) for part in way)
+        heading[some] = np.where(there[some], _way(anchor.frame, *here, vx[some], vy[some])[1], np.nan)
+    lon = np.round(lon, DIGITS)
+    return Voyages(
+        title=plain(title),
+        crafts=crafts_of(facts, frames.target_x.shape[1]),
+        times=anchor.times(seconds),
+        there=there,
+        lon=np.where(lon >= 180.0, lon - 360.0, lon),
+        lat=np.round(lat, DIGITS),
+        speed=speed,
+        course=course,
+        heading=heading,
+        on_target=np.hstack([frames.on_target, np.zeros(none.shape, np.bool_)]) & there,
+    )
 
 
 def _check_near(x: Floats, y: Floats) -> None:
@@ -140,34 +151,17 @@ def _check_near(x: Floats, y: Floats) -> None:
         )
 
 
-def _mean_velocities(frames: Trajectory, seconds: Floats) -> tuple[Floats, Floats]:
-    """Velocities of targets since the frame before, NaN at the first and after an absence, (K, T) each [m/s]."""
-    present = np.asarray(frames.target_present, np.bool_)
-    since = np.diff(seconds)[:, np.newaxis]
-    velocities = []
-    for place in (frames.target_x, frames.target_y):
-        velocity = np.full(place.shape, np.nan)
-        velocity[1:] = np.where(present[1:] & present[:-1], np.diff(place, axis=0) / since, np.nan)
-        velocities.append(velocity)
-    return velocities[0], velocities[1]
+def _since_before(x: Floats, y: Floats, seconds: Floats) -> tuple[Floats, Floats]:
+    """Mean velocities [m/s] since the frame before; 0 at the first."""
+    since = np.diff(seconds, prepend=seconds[0] - 1.0)[:, np.newaxis]
+    return np.diff(x, axis=0, prepend=x[:1]) / since, np.diff(y, axis=0, prepend=y[:1]) / since
 
 
-def _on_earth(anchor: Anchor, x: Floats, y: Floats, vx: Floats, vy: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    """Longitude, latitude [deg], speed over ground [m/s] and course [deg] of local places and velocities.
-
-    Speed and course are of the way that a second leads, on the ellipsoid: with radii of curvature M (north) and N,
-
-    north = M dlat,  east = N cos(lat) dlon
-    """
-    moved = np.isfinite(vx) & np.isfinite(vy)
-    lon, lat = (np.asarray(each, np.float64) for each in anchor.frame.geographic(x, y))
-    further = anchor.frame.geographic(x + np.where(moved, vx, 0.0), y + np.where(moved, vy, 0.0))
-    dlon = np.radians((further[0] - lon + 180.0) % 360.0 - 180.0)
-    dlat = np.radians(further[1] - lat)
-    bend = 1.0 - SQUARED * np.sin(np.radians(lat)) ** 2
-    north = RADIUS * (1.0 - SQUARED) / bend**1.5 * dlat
-    east = RADIUS / np.sqrt(bend) * np.cos(np.radians(lat)) * dlon
-    speed = np.where(moved, np.hypot(east, north), np.nan)
-    course = np.where(speed >= STILL, np.degrees(np.arctan2(east, north)) % 360.0, np.nan)
-    lon = np.round(lon, DIGITS)
-    return np.where(lon >= 180.0, lon - 360.0, lon), np.round(lat, DIGITS), speed, course
+def _way(frame: Frame, x: Floats, y: Floats, lon: Floats, lat: Floats, vx: Floats, vy: Floats) -> tuple[Floats, Floats]:
+    """Speed [m/s] on the ellipsoid and direction [deg] of local velocities: of the way that a second leads."""
+    further_lon, further_lat = frame.geographic(x + vx, y + vy)
+    to_east, to_north = meters_per_degree(lat)
+    east = ((further_lon - lon + 180.0) % 360.0 - 180.0) * to_east
+    north = (further_lat - lat) * to_north
+    speed = np.hypot(east, north)
+    return speed, np.where(speed >= STILL, np.degrees(np.arctan2(east, north)) % 360.0, np.nan)
