@@ -10,6 +10,7 @@ simulate, compare, sweep, reproduce, check     run a scenario, or many of them
 load, presets, to_toml, Scenario               what to run; `scenario.with_(neighbors=10)` is another
 Simulation                                     one run, step by step
 Record, open_record, save_record, load_results what runs leave behind
+export                                         its tracks, for maps and other programs
 list_strategies, list_metrics, list_presets    what there is
 strategy, kernel, uniform, normal              to write a strategy, with the units
 Meters, MetersPerSecond, Seconds, Degrees      of its parameters
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from shoal.paper.reproduce import reproduce
     from shoal.record.files import open_record, save_record
     from shoal.record.record import Record
+    from shoal.record.voyage.export import export
     from shoal.run.simulate import simulate
     from shoal.run.simulation import Simulation
     from shoal.scenario.briefing import briefing
@@ -60,6 +62,7 @@ _HOMES = {
     "shoal.paper.reproduce": ("reproduce",),
     "shoal.record.files": ("open_record", "save_record"),
     "shoal.record.record": ("Record",),
+    "shoal.record.voyage.export": ("export",),
     "shoal.scenario.briefing": ("briefing",),
     "shoal.scenario.load": ("load", "presets", "to_toml"),
     "shoal.scenario.schema": ("Scenario",),
@@ -95,6 +98,7 @@ __all__ = [
     "briefing",
     "check",
     "compare",
+    "export",
     "kernel",
     "list_metrics",
     "list_presets",

@@ -123,7 +123,7 @@ class TestBadInput:
         with socket.create_server(("127.0.0.1", 0)) as taken:
             port = taken.getsockname()[1]
             told = refused(capsys, "watch", "oceans2020", "--no-browser", "--port", port)
-        assert told == f"shoal: --port {port}: is in use\n  fix: name another, or leave it out for a free one\n"
+        assert told == f"shoal: --port {port}: is in use\n  fix: name another, or 0 for a free one\n"
 
     @pytest.mark.parametrize(
         ("tokens", "words"),

@@ -25,6 +25,8 @@ app.command("shoal.cli.show:show", name="show", help="Print the table of a saved
 app.command("shoal.cli.film:film", name="film", help="Make a film or a still of a record or a scenario.")
 app.command("shoal.cli.watch:watch", name="watch", help="Watch a run in the browser, and change it as it goes.")
 app.command("shoal.cli.replay:replay", name="replay", help="Write a page that plays a record by itself.")
+app.command("shoal.cli.export:export", name="export", help="Write the tracks of a record for maps and plotters.")
+app.command("shoal.cli.chart:chart", name="chart", help="Show a run on chart plotters as it goes, by AIS.")
 app.command("shoal.cli.sweep:sweep", name="sweep", help="Run every combination of varied fields, several times each.")
 app.command("shoal.cli.compare.command:compare", name="compare", help="Compare strategies, with the same seeds.")
 app.command("shoal.cli.reproduce:reproduce", name="reproduce", help="Reproduce a paper: its figures, its claims.")

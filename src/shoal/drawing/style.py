@@ -7,16 +7,15 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from shoal.core.errors import MissingExtraError
+from shoal.core.palette import FLEET_COLORS as FLEET_COLORS
+from shoal.core.palette import TARGET as TARGET
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# Okabe and Ito, "Color Universal Design", 2008: distinct for readers with any color vision.
 INK = "#222222"
 GRAY = "#6b6b6b"
 GRID = "#e4e4e4"
-TARGET = "#D55E00"  # vermilion, for targets and time on them alone; its neighbor orange comes late among the fleets
-FLEET_COLORS = ("#0072B2", "#56B4E9", "#009E73", "#CC79A7", "#F0E442", "#E69F00", "#000000")
 FLEET_MARKERS = ("o", "^", "s", "D", "v", "P", "X", "h")
 
 RC: dict[str, Any] = {

@@ -71,15 +71,15 @@ def _is_address(name: str) -> bool:
     return True
 
 
-def listen(host: str, port: int) -> socket.socket:
-    """Return a socket that listens at an address; port 0 is a free one.
+def listen(host: str, port: int, option: str = "--port") -> socket.socket:
+    """Return a socket that listens at an address; port 0 is a free one. `option` says what the user calls the port.
 
     Raises
     ------
     ShoalError : the address cannot be had
     """
     if not 0 <= port <= 65535:
-        raise ShoalError("--port", f"is {port}", "give a number from 0 (a free one) to 65535")
+        raise ShoalError(option, f"is {port}", "give a number from 0 (a free one) to 65535")
     try:
         family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
     except (OSError, UnicodeError):
@@ -97,5 +97,5 @@ def listen(host: str, port: int) -> socket.socket:
                 "--host", f"{host!r} is not an address of this machine", f"leave it out for {LOCAL}"
             ) from None
         problem = "is in use" if error.errno == errno.EADDRINUSE else f"cannot be had: {error.strerror}"
-        raise ShoalError(f"--port {port}", problem, "name another, or leave it out for a free one") from None
+        raise ShoalError(f"{option} {port}", problem, "name another, or 0 for a free one") from None
     return listener
