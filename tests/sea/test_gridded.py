@@ -172,6 +172,26 @@ class TestNamesAndUnits:
         path = regular(tmp_path / "a.nc", names=("v", "u"), change=change)
         assert_is_the_field(reading(path))
 
+    @pytest.mark.parametrize("other", ["barotropic_eastward", "surface_geostrophic_eastward"])
+    def test_all_of_the_current_goes_before_a_part_of_it(self, tmp_path, other):
+        t, y, x = np.meshgrid(TIME, LAT, LON, indexing="ij")
+        over = ("time", "lat", "lon")
+        part = [f"{other}_sea_water_velocity", f"{other.replace('east', 'north')}_sea_water_velocity"]
+        whole = ["sea_water_x_velocity", "sea_water_y_velocity"]
+        pairs = {
+            name: (over, values, {"units": "m/s", "standard_name": said})
+            for name, values, said in zip(
+                "abcd", (0 * t, 0 * t, east(x, y, t), north(x, y, t)), part + whole, strict=True
+            )
+        }
+        change = {"uo": None, "vo": None}
+        field = reading(regular(tmp_path / "a.nc", change={**change, **pairs}))
+        assert_is_the_field(field)
+        assert field.notes == []
+        half = {name: pairs[name] for name in "ab"}
+        (note,) = reading(regular(tmp_path / "b.nc", change={**change, **half})).notes
+        assert note == f"a is {part[0]}, not all of the current at the surface."
+
     @pytest.mark.parametrize(
         ("units", "scale"),
         [("m/s", 1.0), ("m s^-1", 1.0), ("meter second-1", 1.0), ("metres per second", 1.0), ("cm s-1", 0.01),
@@ -217,6 +237,16 @@ class TestLevels:
         field = self.levels(tmp_path, values, at, units="m", axis="Z")
         assert_is_the_field(field)
         assert field.notes == [f"Of {len(values)} levels of water_u, level = {values[at]:g} m was taken."]
+
+    def test_each_component_may_have_an_axis_of_its_own(self, tmp_path):
+        t, y, x = np.meshgrid(TIME, LAT, LON, indexing="ij")
+        depths, about = np.array([0.5, 5.0]), {"units": "m", "positive": "down"}
+        variables = {"time": (("time",), TIME, TIME_IS), "lat": (("lat",), LAT, LAT_IS), "lon": (("lon",), LON, LON_IS)}
+        for name, depth, values in (("uo", "depthu", east(x, y, t)), ("vo", "depthv", north(x, y, t))):
+            variables[depth] = ((depth,), depths, about)
+            variables[name] = (("time", depth, "lat", "lon"), np.stack((values, 0 * t), axis=1), {"units": "m/s"})
+        sizes = {"time": 4, "lat": len(LAT), "lon": len(LON), "depthu": 2, "depthv": 2}
+        assert_is_the_field(reading(netcdf(tmp_path / "nemo.nc", sizes, variables)))
 
     @pytest.mark.parametrize(
         ("values", "units", "at"), [([2.0, 10.0, 80.0], "m", 1), ([500.0, 1000.0, 850.0], "hPa", 1)]

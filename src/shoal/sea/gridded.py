@@ -95,7 +95,7 @@ def _gridded(dataset: Any, path: Path, quantity: str, window: Window, begin: flo
     span = span_of(dataset, path, found.u, begin, end)
     centers = _centers(dataset, path, found, span)
     nodes = nodes_of(dataset, path, centers, found.u, window)
-    notes = [*span.notes]
+    notes = [*found.notes, *span.notes]
     u, v = _read(dataset, path, found, span, nodes, quantity, notes)
     digest = _digest(u, v, nodes, span.unix)
     if u.shape != v.shape:
@@ -200,11 +200,10 @@ def _turn(
 ) -> None:
     """Turn both components in place into the frame."""
     lon, lat = np.meshgrid(nodes.lon, nodes.lat) if nodes.straight else (nodes.lon, nodes.lat)
-    one, nil = np.ones(lat.shape), np.zeros(lat.shape)
     known = np.isfinite(lon) & np.isfinite(lat)
     lon, lat = np.where(known, lon, frame.origin[0]), np.where(known, lat, frame.origin[1])
     lat = np.clip(lat, -NEXT_TO_POLE, NEXT_TO_POLE)  # at the pole itself, east is nowhere
-    (a, c), (b, d) = frame.turned(lon, lat, one, nil), frame.turned(lon, lat, nil, one)
+    a, b, c, d = frame.turn(lon, lat)
     if found.along != TRUE:
         if found.along == UNKNOWN and not (nodes.straight or found.staggered or "angle" in dataset.variables):
             raise SeaError(
