@@ -357,7 +357,8 @@ class TestSteady:
         assert field.time.tolist() == [0.0]
         assert field.notes == ["a.nc has one time, 2020-01-01T02:00:00Z, and is held for the whole run."]
 
-    def test_no_time(self, tmp_path):
+    @pytest.mark.parametrize("hours", [None, 5.0])
+    def test_no_time(self, tmp_path, hours):
         y, x = np.meshgrid(LAT, LON, indexing="ij")
         variables = {
             "lat": (("lat",), LAT, LAT_IS),
@@ -365,9 +366,12 @@ class TestSteady:
             "u": (("lat", "lon"), east(x, y), {"units": "m/s"}),
             "v": (("lat", "lon"), north(x, y), {"units": "m/s"}),
         }
+        if hours is not None:
+            variables["time"] = ((), np.float64(hours), TIME_IS)
         field = reading(netcdf(tmp_path / "a.nc", {"lat": len(LAT), "lon": len(LON)}, variables))
         assert_is_the_field(field)
-        assert field.notes == ["a.nc has no times and is held for the whole run."]
+        said = "no times" if hours is None else "one time, 2020-01-01T05:00:00Z,"
+        assert field.notes == [f"a.nc has {said} and is held for the whole run."]
 
 
 def stereographic(step=800.0, reach=16):

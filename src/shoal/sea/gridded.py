@@ -164,6 +164,10 @@ def _read(
         if found.staggered:
             over = variable.dimensions[-2:]
             rows, columns = rows[: len(rows) - cut[0]], columns[: len(columns) - cut[1]]
+        needed = {*over, span.dimension} - {""}
+        if not needed <= set(variable.dimensions) or len(set(variable.dimensions)) < variable.ndim:
+            described = " and ".join(f"{each.name}({', '.join(each.dimensions)})" for each in (found.u, found.v))
+            raise SeaError(str(path), f"{described} are not on one grid, at the same times", "export both alike")
         fixed, said = fixed_levels(dataset, path, variable, {span.dimension, *over}, quantity)
         at = {**fixed, span.dimension: span.index, over[0]: rows, over[1]: columns}
         field_, missing = read_speeds(variable, at, (span.dimension, *over), scale)
