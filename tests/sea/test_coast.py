@@ -57,10 +57,15 @@ class TestPolygons:
         assert found.polygons == []
         assert found.notes == ["a.geojson has no land near the arena."]
 
-    def test_an_arena_beyond_the_land_of_a_file_is_noted(self, tmp_path):
+    def test_a_cut_inside_the_arena_is_noted(self, tmp_path):
         path = geojson(tmp_path / "a.geojson", polygon(square(*ORIGIN, 0.02)))
-        assert coast(path).notes == ["The arena reaches beyond the land of a.geojson: there, all of it is sea."]
+        assert coast(path).notes == ["a.geojson is cut inside the arena: beyond the cut, all is taken as sea."]
         assert coast(path, half=500.0).notes == []
+
+    def test_an_island_in_the_open_sea_is_no_cut(self, tmp_path):
+        lon, lat = ORIGIN
+        ring = [[lon + 0.01, lat], [lon, lat + 0.01], [lon - 0.01, lat], [lon, lat - 0.01], [lon + 0.01, lat]]
+        assert coast(geojson(tmp_path / "a.geojson", polygon(ring))).notes == []
 
     @pytest.mark.parametrize("origin", [180.0, -179.99, 179.99, 540.0 - 360.0])
     @pytest.mark.parametrize("lons", [(179.9, 180.1), (179.9, -179.9), (-180.1, -179.9)])

@@ -172,6 +172,26 @@ class TestNamesAndUnits:
         path = regular(tmp_path / "a.nc", names=("v", "u"), change=change)
         assert_is_the_field(reading(path))
 
+    @pytest.mark.parametrize("other", ["barotropic_eastward", "surface_geostrophic_eastward"])
+    def test_all_of_the_current_goes_before_a_part_of_it(self, tmp_path, other):
+        t, y, x = np.meshgrid(TIME, LAT, LON, indexing="ij")
+        over = ("time", "lat", "lon")
+        part = [f"{other}_sea_water_velocity", f"{other.replace('east', 'north')}_sea_water_velocity"]
+        whole = ["sea_water_x_velocity", "sea_water_y_velocity"]
+        pairs = {
+            name: (over, values, {"units": "m/s", "standard_name": said})
+            for name, values, said in zip(
+                "abcd", (0 * t, 0 * t, east(x, y, t), north(x, y, t)), part + whole, strict=True
+            )
+        }
+        change = {"uo": None, "vo": None}
+        field = reading(regular(tmp_path / "a.nc", change={**change, **pairs}))
+        assert_is_the_field(field)
+        assert field.notes == []
+        half = {name: pairs[name] for name in "ab"}
+        (note,) = reading(regular(tmp_path / "b.nc", change={**change, **half})).notes
+        assert note == f"a is {part[0]}, not all of the current at the surface."
+
     @pytest.mark.parametrize(
         ("units", "scale"),
         [("m/s", 1.0), ("m s^-1", 1.0), ("meter second-1", 1.0), ("metres per second", 1.0), ("cm s-1", 0.01),
@@ -217,6 +237,16 @@ class TestLevels:
         field = self.levels(tmp_path, values, at, units="m", axis="Z")
         assert_is_the_field(field)
         assert field.notes == [f"Of {len(values)} levels of water_u, level = {values[at]:g} m was taken."]
+
+    def test_each_component_may_have_an_axis_of_its_own(self, tmp_path):
+        t, y, x = np.meshgrid(TIME, LAT, LON, indexing="ij")
+        depths, about = np.array([0.5, 5.0]), {"units": "m", "positive": "down"}
+        variables = {"time": (("time",), TIME, TIME_IS), "lat": (("lat",), LAT, LAT_IS), "lon": (("lon",), LON, LON_IS)}
+        for name, depth, values in (("uo", "depthu", east(x, y, t)), ("vo", "depthv", north(x, y, t))):
+            variables[depth] = ((depth,), depths, about)
+            variables[name] = (("time", depth, "lat", "lon"), np.stack((values, 0 * t), axis=1), {"units": "m/s"})
+        sizes = {"time": 4, "lat": len(LAT), "lon": len(LON), "depthu": 2, "depthv": 2}
+        assert_is_the_field(reading(netcdf(tmp_path / "nemo.nc", sizes, variables)))
 
     @pytest.mark.parametrize(
         ("values", "units", "at"), [([2.0, 10.0, 80.0], "m", 1), ([500.0, 1000.0, 850.0], "hPa", 1)]
@@ -327,7 +357,8 @@ class TestSteady:
         assert field.time.tolist() == [0.0]
         assert field.notes == ["a.nc has one time, 2020-01-01T02:00:00Z, and is held for the whole run."]
 
-    def test_no_time(self, tmp_path):
+    @pytest.mark.parametrize("hours", [None, 5.0])
+    def test_no_time(self, tmp_path, hours):
         y, x = np.meshgrid(LAT, LON, indexing="ij")
         variables = {
             "lat": (("lat",), LAT, LAT_IS),
@@ -335,9 +366,12 @@ class TestSteady:
             "u": (("lat", "lon"), east(x, y), {"units": "m/s"}),
             "v": (("lat", "lon"), north(x, y), {"units": "m/s"}),
         }
+        if hours is not None:
+            variables["time"] = ((), np.float64(hours), TIME_IS)
         field = reading(netcdf(tmp_path / "a.nc", {"lat": len(LAT), "lon": len(LON)}, variables))
         assert_is_the_field(field)
-        assert field.notes == ["a.nc has no times and is held for the whole run."]
+        said = "no times" if hours is None else "one time, 2020-01-01T05:00:00Z,"
+        assert field.notes == [f"a.nc has {said} and is held for the whole run."]
 
 
 def stereographic(step=800.0, reach=16):

@@ -104,6 +104,11 @@ class TestVariables:
         path = netcdf(tmp_path / "a.nc", {"member": 3, "lat": len(LAT), "lon": len(LON)}, variables)
         assert "has 3 indices along 'member'" in refusal(path)[1]
 
+    def test_components_that_are_not_alike(self, tmp_path):
+        steady = (("lat", "lon"), np.zeros((len(LAT), len(LON))), {"units": "m/s"})
+        problem = refusal(regular(tmp_path / "a.nc", change={"vo": steady}))[1]
+        assert problem == "uo(time, lat, lon) and vo(lat, lon) are not on one grid, at the same times"
+
 
 class TestPlaces:
     """Windows that a file does not cover, and axes that are none."""

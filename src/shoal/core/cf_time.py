@@ -35,7 +35,7 @@ def unix_of(values: Any, units: str, calendar: str) -> Any:
     if scale is None or not reference or calendar.lower() not in REAL_CALENDARS:
         problem = f"units {units!r} in calendar {calendar!r} is not a time that was recorded"
         raise ValueError(problem, f"{FIX} and the standard calendar")
-    seconds = np.ma.masked_invalid(np.ma.asarray(values).astype(np.float64)) * scale
+    seconds = np.ma.asarray(np.ma.masked_invalid(np.ma.asarray(values).astype(np.float64)) * scale)
     if not seconds.count():
         return seconds
     first = float(seconds.compressed()[0])

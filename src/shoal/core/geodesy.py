@@ -60,22 +60,30 @@ class Frame:
     def turned(self, lon: Any, lat: Any, east: Any, north: Any) -> tuple[Any, Any]:
         """Return what a velocity on the Earth is in the frame: the rates of change of x and y [m/s].
 
+        Parameters
+        ----------
+        lon, lat : [deg] where, not at a pole
+        east, north : [m/s] true, of a shape that lon and lat broadcast to
+        """
+        a, b, c, d = self.turn(lon, lat)
+        return a * east + b * north, c * east + d * north
+
+    def turn(self, lon: Any, lat: Any) -> tuple[Any, Any, Any, Any]:
+        """Return a, b, c, d with which a velocity is (a east + b north, c east + d north) in the frame.
+
         (u, v) = J (east / (N cos lat), north / M), J the Jacobian of `local` by central differences, M and N the radii
         of curvature: the turn of the meridians and the stretch of the projection are both in it.
 
         Parameters
         ----------
         lon, lat : [deg] where, not at a pole
-        east, north : [m/s] true, of a shape that lon and lat broadcast to
         """
         lon, lat = np.asarray(lon, np.float64), np.asarray(lat, np.float64)
         to_east, to_north = meters_per_degree(lat)
         (x0, y0), (x1, y1) = self.local(lon - _HALF_STEP, lat), self.local(lon + _HALF_STEP, lat)
         (x2, y2), (x3, y3) = self.local(lon, lat - _HALF_STEP), self.local(lon, lat + _HALF_STEP)
-        across, along = 1.0 / (2.0 * _HALF_STEP * to_east), 1.0 / (2.0 * _HALF_STEP * to_north)
-        u = (x1 - x0) * across * east + (x3 - x2) * along * north
-        v = (y1 - y0) * across * east + (y3 - y2) * along * north
-        return u, v
+        across, along = 2.0 * _HALF_STEP * to_east, 2.0 * _HALF_STEP * to_north
+        return (x1 - x0) / across, (x3 - x2) / along, (y1 - y0) / across, (y3 - y2) / along
 
 
 def pyproj() -> Any:

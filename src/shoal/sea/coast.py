@@ -6,6 +6,7 @@ from os import PathLike
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from shoal.core.geodesy import Frame, near
 from shoal.sea.polygons import Polygon, around, in_meters, read_polygons
@@ -51,17 +52,25 @@ def read_coast(path: str | PathLike[str], frame: Frame, half_x: float, half_y: f
     land = around(everything, window, margin)
     if not land:
         notes.append(f"{path.name} has no land near the arena.")
-    elif _ends(everything, window):
-        notes.append(f"The arena reaches beyond the land of {path.name}: there, all of it is sea.")
+    elif _is_cut(everything, window):
+        notes.append(f"{path.name} is cut inside the arena: beyond the cut, all is taken as sea.")
     return Coast(in_meters(land, frame), notes, _digest(land))
 
 
-def _ends(polygons: list[Polygon], window: Window) -> bool:
-    """Whether the arena reaches beyond the box around all polygons: a file that is cut there says nothing of it."""
-    shells = np.concatenate([polygon.shell for polygon in polygons])
-    lon, lat = near(shells[:, 0], window.middle), shells[:, 1]
-    return bool(
-        window.west < lon.min() or window.east > lon.max() or window.south < lat.min() or window.north > lat.max()
+def _is_cut(polygons: list[Polygon], window: Window) -> bool:
+    """Whether the arena reaches beyond a side of the box around all polygons that an edge lies on."""
+    lon = np.concatenate([near(each.shell[:, 0], window.middle) for each in polygons])
+    lat = np.concatenate([each.shell[:, 1] for each in polygons])
+
+    def cut(values: NDArray[np.float64], end: float) -> bool:
+        at = values == end
+        return bool((at[1:] & at[:-1]).any())
+
+    return (
+        (window.west < lon.min() and cut(lon, lon.min()))
+        or (window.east > lon.max() and cut(lon, lon.max()))
+        or (window.south < lat.min() and cut(lat, lat.min()))
+        or (window.north > lat.max() and cut(lat, lat.max()))
     )
 
 

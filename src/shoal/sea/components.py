@@ -47,6 +47,7 @@ NAMES = {
 }  # fmt: skip
 MEDIUM = {"currents": "water", "wind": "wind"}  # what a standard_name says that is of the quantity
 OTHER_DEPTH = re.compile(r"bottom|floor|err|std|stokes|ice|tide_", re.IGNORECASE)
+PARTIAL = re.compile(r"barotropic|geostrophic|no_tide|^ubar$|^ugos$", re.IGNORECASE)
 METERS_PER_SECOND = {
     "m/s": 1.0, "ms-1": 1.0, "ms^-1": 1.0, "ms**-1": 1.0, "cm/s": 0.01, "cms-1": 0.01, "cms^-1": 0.01,
     "cms**-1": 0.01, "mm/s": 0.001, "mms-1": 0.001, "km/h": 1 / 3.6, "kmh-1": 1 / 3.6,
@@ -70,6 +71,12 @@ class Components:
         """Whether they are on the sides of cells, each on its own: an Arakawa C grid."""
         u, v = self.u.dimensions, self.v.dimensions
         return set(u) != set(v) and u[-2:] != v[-2:]
+
+    @property
+    def notes(self) -> list[str]:
+        """That they are less than the current at the surface, where they are."""
+        said = text(self.u, "standard_name") or self.u.name
+        return [f"{self.u.name} is {said}, not all of the current at the surface."] if PARTIAL.search(said) else []
 
 
 def components_of(dataset: Any, path: Path, quantity: str) -> Components:
@@ -104,8 +111,7 @@ def meters_per_second(units: str) -> float | None:
 
 def _pair(numeric: dict[str, Any], path: Path, quantity: str, dataset: Any) -> tuple[Any, Any, str]:
     half = []
-    pairs = sorted(STANDARD_NAMES[quantity], key=lambda each: each[2] == GRID and "barotropic" not in each[0])
-    for first, second, along in pairs:
+    for first, second, along in STANDARD_NAMES[quantity]:
         u, v = (_with_standard_name(numeric, name, quantity) for name in (first, second))
         if u is not None and v is not None:
             return u, v, along

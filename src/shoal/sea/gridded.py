@@ -95,7 +95,7 @@ def _gridded(dataset: Any, path: Path, quantity: str, window: Window, begin: flo
     span = span_of(dataset, path, found.u, begin, end)
     centers = _centers(dataset, path, found, span)
     nodes = nodes_of(dataset, path, centers, found.u, window)
-    notes = [*span.notes]
+    notes = [*found.notes, *span.notes]
     u, v = _read(dataset, path, found, span, nodes, quantity, notes)
     digest = _digest(u, v, nodes, span.unix)
     if u.shape != v.shape:
@@ -164,6 +164,10 @@ def _read(
         if found.staggered:
             over = variable.dimensions[-2:]
             rows, columns = rows[: len(rows) - cut[0]], columns[: len(columns) - cut[1]]
+        needed = {*over, span.dimension} - {""}
+        if not needed <= set(variable.dimensions) or len(set(variable.dimensions)) < variable.ndim:
+            described = " and ".join(f"{each.name}({', '.join(each.dimensions)})" for each in (found.u, found.v))
+            raise SeaError(str(path), f"{described} are not on one grid, at the same times", "export both alike")
         fixed, said = fixed_levels(dataset, path, variable, {span.dimension, *over}, quantity)
         at = {**fixed, span.dimension: span.index, over[0]: rows, over[1]: columns}
         field_, missing = read_speeds(variable, at, (span.dimension, *over), scale)
@@ -200,11 +204,10 @@ def _turn(
 ) -> None:
     """Turn both components in place into the frame."""
     lon, lat = np.meshgrid(nodes.lon, nodes.lat) if nodes.straight else (nodes.lon, nodes.lat)
-    one, nil = np.ones(lat.shape), np.zeros(lat.shape)
     known = np.isfinite(lon) & np.isfinite(lat)
     lon, lat = np.where(known, lon, frame.origin[0]), np.where(known, lat, frame.origin[1])
     lat = np.clip(lat, -NEXT_TO_POLE, NEXT_TO_POLE)  # at the pole itself, east is nowhere
-    (a, c), (b, d) = frame.turned(lon, lat, one, nil), frame.turned(lon, lat, nil, one)
+    a, b, c, d = frame.turn(lon, lat)
     if found.along != TRUE:
         if found.along == UNKNOWN and not (nodes.straight or found.staggered or "angle" in dataset.variables):
             raise SeaError(

@@ -60,7 +60,7 @@ def _is_vertical(name: str, coordinate: Any) -> bool:
 
 def _level(name: str, size: int, coordinate: Any, quantity: str) -> tuple[int, str]:
     """The index nearest to the surface, or to 10 m of height, and its name in words."""
-    if coordinate is None or coordinate.ndim != 1 or coordinate.dtype is str:
+    if coordinate is None or coordinate.dimensions != (name,) or coordinate.dtype is str:
         last = name.lower().startswith("s_")  # of ROMS: from the bottom up
         return (size - 1 if last else 0), f"the {'last' if last else 'first'} ({name} says no depths)"
     values = np.ma.filled(np.ma.masked_invalid(np.ma.asarray(coordinate[...], np.float64)), np.inf)
