@@ -4,15 +4,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shoal.compiler.kernel import plain
 from shoal.core.errors import ShoalError
 from shoal.core.geodesy import Frame
 from shoal.drawing.style import GRAY, INK
 from shoal.record.trajectory import Trajectory
-from shoal.run.sea import build_sea
+from shoal.run.sea import build_sea, flow_at
 from shoal.scenario.at_sea import OpenSea, open_sea
 from shoal.scenario.schema import Area, Scenario
-from shoal.world.sea.field import moment, velocity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,9 +18,6 @@ if TYPE_CHECKING:
 LAND, SHORE, WATER = "#d9d2c3", "#8c8069", "#7ba7bd"
 ARROWS = 13  # along the longer side
 MOST_CELLS = 700  # of the raster along a side that is drawn
-
-_velocity: Any = plain(velocity)
-_moment: Any = plain(moment)
 
 
 def draw_chart(axes: "Axes", scenario: Scenario) -> None:
@@ -89,8 +84,7 @@ class CurrentArrows:
         self._arrows.set_UVC(*self._flow(float(frames.step[at]) * self._time_step).T)
 
     def _flow(self, time: float) -> Any:
-        now = _moment(self._field, time)
-        return np.array([_velocity(self._field, *place, now) for place in self._places]).reshape(-1, 2)
+        return flow_at(self._field, self._places, time)
 
 
 def current_arrows(axes: "Axes", scenario: Scenario) -> CurrentArrows | None:

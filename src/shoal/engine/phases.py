@@ -32,7 +32,7 @@ from shoal.world.motion import (
 from shoal.world.neighbors import count_heard, link_nearest, measure_distances, rank_heard, settle_ties
 from shoal.world.presence import update_presence
 from shoal.world.radio import adapt_degree, deafen, limit_links, lose_reports, said, send
-from shoal.world.sea.sea import carry
+from shoal.world.sea.sea import carry, span
 from shoal.world.sea.sight import hide_behind_land
 from shoal.world.sensing import sense
 from shoal.world.targets.dispatch import advance_target
@@ -176,7 +176,7 @@ def go_to_sea(swarm, effects, sea, scratch, world, number, first, last):
         drift_x[i] = 0.0
         drift_y[i] = 0.0
     if world.flowing:
-        carry(sea, swarm, scratch, world.windy, number * time_step, time_step, first, last)
+        carry(sea, swarm, scratch, world.windy, span(sea, number, time_step), first, last)
     if world.disturbed:
         add_drift(swarm, effects, time_step, first, last)
     if world.coastal:

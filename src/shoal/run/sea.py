@@ -1,20 +1,20 @@
 """What the engine works on of a scenario's sea: fields with polynomials to their grids, land, stations."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from shoal.compiler.kernel import plain
 from shoal.core.errors import ScenarioError
 from shoal.core.geodesy import Frame, near
 from shoal.scenario.at_sea import OpenSea
 from shoal.scenario.schema import Scenario
-from shoal.world.sea.field import DEGREE, GRID, Field, flow_field, still_field
+from shoal.world.sea.field import DEGREE, GRID, Field, flow_field, moment, still_field, velocity
 from shoal.world.sea.land import Land, no_land
 from shoal.world.sea.sea import Sea, calm_sea
 
-if TYPE_CHECKING:
-    from shoal.sea.gridded import Gridded
-
+_moment: Any = plain(moment)  # one number takes longer to hand to compiled code than to work out
+_velocity: Any = plain(velocity)
 EXACT = 5.0  # [m]: how well polynomials must know where a place is on a grid; for 100 km it is some mm
 _SAMPLES = 25  # a side, of places that they are fitted to
 
@@ -42,7 +42,7 @@ def _land(raster: Any) -> Land:
     )
 
 
-def _field(chosen: Any, read: "Gridded | None", frame: Frame | None, half: float) -> Field:
+def _field(chosen: Any, read: Any, frame: Frame | None, half: float) -> Field:
     if read is None:
         return still_field() if chosen is None else flow_field(chosen.kind, chosen.numbers())
     size = 1.1 * half  # what leaves the arena a little, such as a target, is still known
@@ -69,7 +69,7 @@ def _even(axis: Any) -> float:
     return step if drift < 1e-4 * step else 0.0
 
 
-def _to_axes(read: "Gridded", frame: Frame | None, size: float) -> Any:
+def _to_axes(read: Any, frame: Frame | None, size: float) -> Any:
     """Coefficients (2, 15) of the polynomials that give the place along the axes of local x and y.
 
     Raises
@@ -109,3 +109,9 @@ def _powers(places: Any) -> Any:
     """x^i y^j, by i and then j, i + j <= DEGREE: the order in which kernels read them."""
     x, y = places[:, 0], places[:, 1]
     return np.stack([x**i * y**j for i in range(DEGREE + 1) for j in range(DEGREE - i + 1)], axis=-1)
+
+
+def flow_at(field: Field, places: Any, time: float) -> Any:
+    """Velocities of a field at places (P, 2) [m] and a time [s], (P, 2) [m/s]."""
+    now = _moment(field, time)
+    return np.array([_velocity(field, *place, now) for place in places]).reshape(-1, 2)

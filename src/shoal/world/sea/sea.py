@@ -40,6 +40,14 @@ class Instant(NamedTuple):
     wind: Moment
 
 
+class Span(NamedTuple):
+    """A time-step: its start, half a step later, and how long it is [s]."""
+
+    now: Instant
+    later: Instant
+    time_step: float
+
+
 @kernel
 def instant(sea, time):
     """Find a time [s since the start] in both."""
@@ -47,19 +55,25 @@ def instant(sea, time):
 
 
 @kernel
-def carried(sea, x, y, own_x, own_y, now, later, time_step, leeway):
-    """How far water and wind carry something in a step, along x and y [m].
+def span(sea, number, time_step):
+    """Step `number` of a run."""
+    return Span(instant(sea, number * time_step), instant(sea, (number + 0.5) * time_step), time_step)
 
-    x, y : where it is [m]; own_x, own_y : its own velocity [m/s]; now, later : the start, and half a step later. Where
-    the step is long, by the velocity where it is half a step later (the midpoint rule); else by that at the start.
+
+@kernel
+def carried(sea, x, y, own_x, own_y, span, leeway):
+    """How far water and wind carry something in a step, a Span, along x and y [m].
+
+    x, y : where it is [m]; own_x, own_y : its own velocity [m/s]. Where the step is long, by the velocity where it is
+    half a step later (the midpoint rule); else by that at the start.
     """
-    drift_x, drift_y = drift_velocity(sea, x, y, now, leeway)
-    if time_step > LONG_STEP:
-        half = 0.5 * time_step
-        drift_x, drift_y = drift_velocity(
-            sea, x + half * (own_x + drift_x), y + half * (own_y + drift_y), later, leeway
-        )
-    return drift_x * time_step, drift_y * time_step
+    drift_x, drift_y = drift_velocity(sea, x, y, span.now, leeway)
+    if span.time_step > LONG_STEP:
+        half = 0.5 * span.time_step
+        x += half * (own_x + drift_x)
+        y += half * (own_y + drift_y)
+        drift_x, drift_y = drift_velocity(sea, x, y, span.later, leeway)
+    return drift_x * span.time_step, drift_y * span.time_step
 
 
 @kernel
@@ -84,30 +98,29 @@ def leeway_velocity(sea, x, y, now, leeway):
 
 
 @kernel
-def carry(sea, swarm, scratch, windy, time, time_step, first, last):
-    """Set the drift of agents first..last to what water and wind add to their velocities [m/s]; see `carried`."""
-    x, y = scratch.a[first:last], scratch.b[first:last]
-    drift_x, drift_y = swarm.drift_x[first:last], swarm.drift_y[first:last]
-    own_x, own_y = swarm.command_x[first:last], swarm.command_y[first:last]
-    for i in range(x.size):
-        x[i], y[i] = swarm.x[first + i], swarm.y[first + i]
-    _drift_of_all(sea, x, y, time, windy, swarm.leeway[first:last], scratch, drift_x, drift_y)
-    if time_step > LONG_STEP:
-        half = 0.5 * time_step
-        for i in range(x.size):
-            x[i] += half * (own_x[i] + drift_x[i])
-            y[i] += half * (own_y[i] + drift_y[i])
-        _drift_of_all(sea, x, y, time + half, windy, swarm.leeway[first:last], scratch, drift_x, drift_y)
+def carry(sea, swarm, scratch, windy, span, first, last):
+    """Set the drift of agents first..last to what water and wind add to their velocities [m/s], as `carried`."""
+    x, y = scratch.a, scratch.b
+    for i in range(first, last):
+        x[i], y[i] = swarm.x[i], swarm.y[i]
+    _drift_of_all(sea, swarm, scratch, windy, span.now, first, last)
+    if span.time_step > LONG_STEP:
+        half = 0.5 * span.time_step
+        for i in range(first, last):
+            x[i] += half * (swarm.command_x[i] + swarm.drift_x[i])
+            y[i] += half * (swarm.command_y[i] + swarm.drift_y[i])
+        _drift_of_all(sea, swarm, scratch, windy, span.later, first, last)
 
 
 @kernel
-def _drift_of_all(sea, x, y, time, windy, leeway, scratch, drift_x, drift_y):
-    """Drift velocities (B,) at places (B,) and a time, as `drift_velocity`."""
-    now = instant(sea, time)
+def _drift_of_all(sea, swarm, scratch, windy, now, first, last):
+    """Drift velocities at the places in scratch.a and b, and an Instant, as `drift_velocity`."""
+    x, y = scratch.a[first:last], scratch.b[first:last]
+    drift_x, drift_y = swarm.drift_x[first:last], swarm.drift_y[first:last]
     velocities(sea.currents, x, y, now.currents, scratch.c, scratch.d, drift_x, drift_y)
     if windy:
-        for i in range(x.size):
-            wind = Leeway(leeway[i, 0], leeway[i, 1], leeway[i, 2], leeway[i, 3])
-            more_x, more_y = leeway_velocity(sea, x[i], y[i], now, wind)
-            drift_x[i] += more_x
-            drift_y[i] += more_y
+        for i in range(first, last):
+            wind = Leeway(swarm.leeway[i, 0], swarm.leeway[i, 1], swarm.leeway[i, 2], swarm.leeway[i, 3])
+            more_x, more_y = leeway_velocity(sea, scratch.a[i], scratch.b[i], now, wind)
+            swarm.drift_x[i] += more_x
+            swarm.drift_y[i] += more_y

@@ -107,7 +107,7 @@ def hide_behind_land(links, sight, reports, swarm, land, range_square, first, ag
         if unsure:
             for i in range(lanes):
                 if abs(sight.until[j, i]) <= travelled:
-                    _look_again(square, sight, reports, swarm, land, range_square, travelled, j, i)
+                    _look_again(square, sight, reports, swarm, land, range_square, j, i)
 
 
 @kernel
@@ -126,8 +126,9 @@ def _farthest(sight, reports, swarm, lanes, agents):
 
 
 @kernel
-def _look_again(square, sight, reports, swarm, land, range_square, travelled, j, i):
+def _look_again(square, sight, reports, swarm, land, range_square, j, i):
     """Look whether listener i sees speaker j; a pair out of range is not looked at before it may be in range."""
+    travelled = sight.travelled[0]
     dx = swarm.x[i] - reports.x[j]
     dy = swarm.y[i] - reports.y[j]
     square[j, i] = dx * dx + dy * dy

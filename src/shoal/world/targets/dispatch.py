@@ -5,7 +5,7 @@ from typing import Any
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import uniform
 from shoal.world.sea.land import anywhere_afloat, sailed, seaward
-from shoal.world.sea.sea import Leeway, carried, instant
+from shoal.world.sea.sea import Leeway, carried, span
 from shoal.world.targets.catalogue import KINDS
 from shoal.world.targets.contract import Around
 from shoal.world.targets.dive import surface_or_dive
@@ -35,11 +35,10 @@ def advance_target(target, tracks, swarm, sea, world, steps_done, draw):
 @kernel
 def _drift(target, sea, world, number):
     """Let water and wind add to its next displacement; what disturbances add is there already."""
-    step = world.time_step
-    now, later = instant(sea, number * step), instant(sea, (number + 0.5) * step)
     wind = Leeway(target.leeway_slope, target.leeway_offset, target.leeway_cosine, target.leeway_sine)
     own_x, own_y = target.speed * target.heading_x, target.speed * target.heading_y
-    drift_x, drift_y = carried(sea, target.x, target.y, own_x, own_y, now, later, step, wind)
+    step = span(sea, number, world.time_step)
+    drift_x, drift_y = carried(sea, target.x, target.y, own_x, own_y, step, wind)
     target.drift_x = drift_x + (target.drift_x if world.disturbed else 0.0)
     target.drift_y = drift_y + (target.drift_y if world.disturbed else 0.0)
 
