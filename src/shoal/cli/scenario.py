@@ -6,17 +6,23 @@ from shoal.cli.output import write
 from shoal.cli.progress import note
 
 
-def scenario(preset: str, /) -> None:
+def scenario(preset: str, /, *, scale_to: str | None = None) -> None:
     """Print the TOML of a preset, to start a scenario of your own from.
 
     Parameters
     ----------
     preset
         A preset's name (see `shoal presets`), or a TOML file, which is printed with all defaults filled in.
+    scale_to
+        Make the longer side this long, such as "3 km", and multiply all lengths and times alike; speeds stay.
     """
+    from shoal.scenario.edit import parse_value
     from shoal.scenario.load import load, preset_text, to_toml
 
-    write(preset_text(preset) or to_toml(load(preset)))
+    if scale_to is not None:
+        write(to_toml(load(preset).scaled(to=parse_value(scale_to))))
+    else:
+        write(preset_text(preset) or to_toml(load(preset)))
 
 
 def check(file: str, /) -> None:

@@ -3,7 +3,7 @@
 import math
 import re
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from shoal.core.text import quoted
 
@@ -94,6 +94,17 @@ class Range:
     least: float = 0.0
     most: float = 1e12
     open: bool = False
+
+
+@dataclass(frozen=True)
+class Follows:
+    """Marks a length or a time whose default, said for the paper's scenario, follows a length of each scenario.
+
+    length : "spacing" of the agents, "reach" of their sensors or "step", the way that the fastest goes in a time-step;
+        a time follows by how long the fastest takes for it. See scenario/scales.py
+    """
+
+    length: Literal["spacing", "reach", "step"]
 
 
 @dataclass(frozen=True)
