@@ -3,7 +3,7 @@
 import math
 import re
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from shoal.core.text import quoted
 
@@ -96,6 +96,9 @@ class Range:
     open: bool = False
 
 
+LENGTHS = ("spacing", "reach", "step")
+
+
 @dataclass(frozen=True)
 class Follows:
     """Marks a length or a time whose default, said for the paper's scenario, follows a length of each scenario.
@@ -104,7 +107,12 @@ class Follows:
         a time follows by how long the fastest takes for it. See scenario/scales.py
     """
 
-    length: Literal["spacing", "reach", "step"]
+    length: str
+
+    def __post_init__(self) -> None:
+        """Refuse a length that scenarios do not have."""
+        if self.length not in LENGTHS:
+            raise ValueError(f"Follows({quoted(self.length)}): there are {', '.join(LENGTHS)}; name one")
 
 
 @dataclass(frozen=True)

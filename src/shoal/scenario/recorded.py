@@ -10,8 +10,8 @@ from shoal.core.errors import StrategyError
 from shoal.core.units import Meters, MetersPerSecond
 from shoal.scenario.disturbances import DISTURBANCES, AnyDisturbance
 from shoal.scenario.frozen import Frozen
-from shoal.scenario.schema import Fleet, Scenario
 from shoal.scenario.scales import PAPER, Scales
+from shoal.scenario.schema import Fleet, Scenario
 from shoal.scenario.strategy_choice import StrategyChoice, defaults_at, following
 from shoal.scenario.targets import TARGETS
 from shoal.strategies import Strategy

@@ -32,7 +32,7 @@ def scaled(scenario: Scenario, factor: float | None = None, to: float | str | No
     if (factor is None) == (to is None):
         raise ScenarioError("scaled", "takes a factor or a size", 'write scaled(150) or scaled(to="3 km")')
     if factor is None:
-        factor = _quantity("to", to, Unit("m")) / max(scenario.area.width, scenario.area.height)
+        factor = _quantity("size", to, Unit("m")) / max(scenario.area.width, scenario.area.height)
     elif isinstance(factor, bool) or not isinstance(factor, (int, float)) or not 0 < factor < math.inf:
         raise ScenarioError("factor", f"is {quoted(factor)}", "give a number above 0, such as 150")
     if any(target.kind == "track" for target in scenario.targets) or scenario.area.origin is not None:

@@ -8,7 +8,7 @@ Each is known before the swarm leaves: the speed of a target is not, so no defau
 """
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from shoal.core.units import Follows, Range
 
@@ -66,8 +66,3 @@ def followed(default: float, follows: Follows, symbol: str, allowed: Range | Non
     """
     value = default * scales.ratio(follows, symbol)
     return min(max(value, allowed.least), allowed.most) if allowed else value
-
-
-def words_of(scales: Scales) -> dict[str, Any]:
-    """The lengths and the time-step's share of them, as tables show them."""
-    return scales._asdict()

@@ -373,10 +373,11 @@ class Scenario(Frozen):
     @model_validator(mode="after")
     def _defaults_follow(self) -> Self:
         scales = scales_of(self)
-        for part in (self, *(fleet := [each.model_copy() for each in self.fleets])):
-            if part.strategy is not None:
-                vars(part)["strategy"] = part.strategy.at(scales)
-        vars(self)["fleets"] = tuple(fleet)
+        fleets = tuple(each.model_copy() for each in self.fleets)
+        for fleet in fleets:
+            if fleet.strategy:
+                vars(fleet)["strategy"] = fleet.strategy.at(scales)
+        vars(self).update(fleets=fleets, strategy=self.strategy.at(scales))
         return self
 
 

@@ -21,10 +21,14 @@ from shoal.strategies.parts import turned_from_walls
 class ACmommt(NamedTuple):
     """Parameters."""
 
-    target_near: Annotated[Meters, Follows("reach"), Range(), Doc("do1: nearer to a target the force pushes away")] = 0.5
+    target_near: Annotated[Meters, Follows("reach"), Range(), Doc("do1: nearer to a target the force pushes away")] = (
+        0.5
+    )
     target_full: Annotated[Meters, Follows("reach"), Range(), Doc("do2: from here on the attraction is full")] = 1.0
     target_fade: Annotated[Meters, Follows("spacing"), Range(), Doc("do3: from here on it fades")] = 4.0
-    target_end: Annotated[Meters, Follows("spacing"), Range(), Doc("predictive tracking range: farther targets do not attract")] = 8.0
+    target_end: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("predictive tracking range: farther targets do not attract")
+    ] = 8.0
     target_weight: Annotated[float, Range(), Doc("w: force of a target that somebody watches already")] = 1.0
     mate_full: Annotated[Meters, Follows("spacing"), Range(), Doc("dr1: nearer mates push with full force")] = 1.0
     mate_end: Annotated[Meters, Follows("spacing"), Range(), Doc("dr2: farther mates do not push")] = 3.0

@@ -21,7 +21,9 @@ class ConstantRepulsion(NamedTuple):
         Meters, Follows("spacing"), Range(), Doc("a_R; sqrt(pi R^2 / N) with R = 2 m and N = 50 in the published runs")
     ] = 0.5013256549262001
     repulsion_exponent: Annotated[float, Range(0.0, 100.0), Doc("d: steepness of the repulsion")] = 6.0
-    repulsion_step: Annotated[Meters, Follows("step"), Range(), Doc("displacement by a neighbor at distance a_R in one step")] = 1.0
+    repulsion_step: Annotated[
+        Meters, Follows("step"), Range(), Doc("displacement by a neighbor at distance a_R in one step")
+    ] = 1.0
 
 
 def influence(me, other, params):

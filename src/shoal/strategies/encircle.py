@@ -32,10 +32,15 @@ class Encircle(NamedTuple):
         0.82
     )
     chase: Annotated[
-        Meters, Follows("spacing"), Range(), Doc("how far from its station an agent as fast as the target goes to meet it")
+        Meters,
+        Follows("spacing"),
+        Range(),
+        Doc("how far from its station an agent as fast as the target goes to meet it"),
     ] = 9.0
     ring: Annotated[Meters, Follows("reach"), Range(), Doc("distance of the ring from the estimate")] = 0.95
-    spacing: Annotated[Meters, Follows("reach"), Range(), Doc("agents on the ring push each other when nearer than this")] = 2.0
+    spacing: Annotated[
+        Meters, Follows("reach"), Range(), Doc("agents on the ring push each other when nearer than this")
+    ] = 2.0
     push: Annotated[float, Range(), Doc("how strongly, as a share of the distance to the neighbor")] = 0.3
     lead: Annotated[
         float, Range(), Doc("share of the time to get there by which the ring is ahead of the estimate")

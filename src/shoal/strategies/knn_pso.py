@@ -20,12 +20,18 @@ class KnnPso(NamedTuple):
     social_draws: Annotated[int, Choice(("scalar", "per-axis")), Doc("r: one draw for both axes, or one each")] = 0
     follow: Annotated[int, Choice(("nearest", "lowest-index")), Doc("which neighbor on target is followed")] = 0
     repulsion_start: Annotated[Meters, Follows("spacing"), Range(), Doc("a_R at the start")] = 0.5013256549262001
-    repulsion_min: Annotated[Meters, Follows("spacing"), Range(), Doc("a_R shrinks while above this and somebody is on target")] = 0.375
-    repulsion_max: Annotated[Meters, Follows("spacing"), Range(), Doc("a_R grows while below this and nobody is on target")] = 1.5
+    repulsion_min: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("a_R shrinks while above this and somebody is on target")
+    ] = 0.375
+    repulsion_max: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("a_R grows while below this and nobody is on target")
+    ] = 1.5
     delta: Annotated[Meters, Follows("step"), Range(), Doc("growth of a_R in one step with nobody on target")] = 0.01
     shrink: Annotated[float, Range(), Doc("deltas that a_R shrinks by in one step with somebody on target")] = 1.0
     repulsion_exponent: Annotated[float, Range(0.0, 100.0), Doc("d: steepness of the repulsion")] = 6.0
-    repulsion_step: Annotated[Meters, Follows("step"), Range(), Doc("displacement by a neighbor at distance a_R in one step")] = 1.0
+    repulsion_step: Annotated[
+        Meters, Follows("step"), Range(), Doc("displacement by a neighbor at distance a_R in one step")
+    ] = 1.0
 
 
 def begin(me, memory, params, draw):

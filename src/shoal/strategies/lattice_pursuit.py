@@ -16,7 +16,9 @@ class LatticePursuit(NamedTuple):
     spread: Annotated[
         float, Range(0.0, 1.0), Doc("the lattice covers this share of the sides that agents may go to")
     ] = 0.82
-    reach: Annotated[Meters, Follows("spacing"), Range(), Doc("a target nearer to the station than this is pursued")] = 2.0
+    reach: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("a target nearer to the station than this is pursued")
+    ] = 2.0
 
 
 def begin(me, memory, params, draw):

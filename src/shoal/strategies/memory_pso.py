@@ -23,11 +23,17 @@ class MemoryPso(NamedTuple):
     social: Annotated[float, Range(), Doc("c2: largest share of the distance to the leader wanted in one step")] = 0.5
     max_age: Annotated[Seconds, Follows("spacing"), Range(), Doc("the own best is forgotten when this old")] = 5.0
     repulsion_start: Annotated[Meters, Follows("spacing"), Range(), Doc("a_R at the start")] = 0.5013256549262001
-    repulsion_min: Annotated[Meters, Follows("spacing"), Range(), Doc("a_R shrinks while above this and somebody is on target")] = 0.375
-    repulsion_max: Annotated[Meters, Follows("spacing"), Range(), Doc("a_R grows while below this and nobody is on target")] = 1.5
+    repulsion_min: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("a_R shrinks while above this and somebody is on target")
+    ] = 0.375
+    repulsion_max: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("a_R grows while below this and nobody is on target")
+    ] = 1.5
     delta: Annotated[Meters, Follows("step"), Range(), Doc("change of a_R in one step")] = 0.01
     repulsion_exponent: Annotated[float, Range(0.0, 100.0), Doc("d: steepness of the repulsion")] = 6.0
-    repulsion_step: Annotated[Meters, Follows("step"), Range(), Doc("displacement by a neighbor at distance a_R in one step")] = 1.0
+    repulsion_step: Annotated[
+        Meters, Follows("step"), Range(), Doc("displacement by a neighbor at distance a_R in one step")
+    ] = 1.0
 
 
 def begin(me, memory, params, draw):
