@@ -1,6 +1,9 @@
 """shoal scenario, check, schema: write, check and describe scenario files."""
 
 import json
+from typing import Annotated
+
+from cyclopts import Parameter
 
 from shoal.cli.output import write
 from shoal.cli.progress import note
@@ -25,19 +28,21 @@ def scenario(preset: str, /, *, scale_to: str | None = None) -> None:
         write(preset_text(preset) or to_toml(load(preset)))
 
 
-def check(file: str, /) -> None:
-    """Check that a scenario can run, its strategy and its tracks included.
+def check(file: str, /, *, quick: Annotated[bool, Parameter(negative=())] = False) -> None:
+    """Check that a scenario can run, its strategy and its tracks included, and say what looks like a mistake.
 
     Parameters
     ----------
     file
         A TOML file or a preset's name.
+    quick
+        Make no trial runs, which take some seconds: are agents at the walls, is the time-step short enough.
     """
     from shoal.scenario.load import load
     from shoal.study.check import check as notes_of
 
     loaded = load(file)
-    for each in notes_of(loaded):
+    for each in notes_of(loaded, trials=not quick):
         note(each)
     write(
         f"{file}: fine ({loaded.agents} agents, k = {loaded.network.neighbors}, {loaded.steps:,} steps, "

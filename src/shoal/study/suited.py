@@ -1,0 +1,66 @@
+"""Whether a scenario is one that its strategies were made for, told from what it says."""
+
+from collections.abc import Iterator
+from typing import Any, get_type_hints
+
+from shoal.core.units import Unit
+from shoal.scenario.scales import Scales, scales_of
+from shoal.scenario.schema import Scenario
+from shoal.scenario.strategy_choice import StrategyChoice, following
+
+FEW = 0.1  # of the spacing: a reach below it sees less than a thirtieth of what each agent has to watch
+FAR_OFF = 10.0  # times the default: where a parameter that was said no longer suits the scenario
+
+
+def unsuited(scenario: Scenario) -> list[str]:
+    """Return what is likely to be a mistake, in sentences: steps, reach, radio and lengths against each other."""
+    scales = scales_of(scenario)
+    choices = [scenario.strategy, *(fleet.strategy for fleet in scenario.fleets if fleet.strategy)]
+    used = {fleet.strategy or scenario.strategy for fleet in scenario.fleets}
+    lengths = [note for choice in dict.fromkeys(choices) if choice in used for note in _lengths(choice, scales)]
+    return [*_steps(scenario, scales), *_distances(scenario, scales), *lengths]
+
+
+def _steps(scenario: Scenario, scales: Scales) -> Iterator[str]:
+    if scales.step > scales.reach:
+        yield (
+            f"the fastest agent goes {scales.step:.3g} m in a time-step, farther than the {scales.reach:.3g} m at "
+            f"which targets are detected: it jumps over them; lower time_step below {scales.reach / scales.speed:.2g} s"
+        )
+    target = max((getattr(each, "speed", None) or 0.0 for each in scenario.targets), default=0.0)
+    if target * scenario.time_step > 2 * scales.reach:
+        yield (
+            f"a target goes {target * scenario.time_step:.3g} m in a time-step, farther than the "
+            f"{2 * scales.reach:.3g} m across which an agent detects it: it slips through unseen; lower time_step "
+            f"below {2 * scales.reach / target:.2g} s"
+        )
+
+
+def _distances(scenario: Scenario, scales: Scales) -> Iterator[str]:
+    if scales.reach < FEW * scales.spacing:
+        seen = 100 * 3.14159 * (scales.reach / scales.spacing) ** 2
+        yield (
+            f"agents detect a target within {scales.reach:.3g} m, but are {scales.spacing:.3g} m apart if spread "
+            f"evenly: together they see {seen:.2g} % of the area; is a sensor_radius missing, or are agents?"
+        )
+    if scenario.network.range is not None and scenario.network.range < scales.spacing:
+        yield (
+            f"the radio reaches {scenario.network.range:.3g} m, less than the {scales.spacing:.3g} m between agents "
+            "that are spread evenly: most hear nobody"
+        )
+
+
+def _lengths(choice: StrategyChoice, scales: Scales) -> Iterator[str]:
+    """Parameters that were said and are far from what suits."""
+    hints: dict[str, Any] = get_type_hints(choice.owner.params, include_extras=True)
+    marks = following(choice.owner)
+    for name in choice.params.keys() - choice.open.keys():
+        value, default = choice.params[name], choice.defaults[name]
+        unit = next((each.symbol for each in getattr(hints[name], "__metadata__", ()) if isinstance(each, Unit)), "")
+        if name in marks and value and not 1 / FAR_OFF <= value / default <= FAR_OFF:
+            yield (
+                f"strategy {choice.name}: {name} is {value:.3g} {unit}; what suits a {marks[name].length} of "
+                f"{getattr(scales, marks[name].length):.3g} m is about {default:.3g} {unit}, its default; leave it out"
+            )
+        elif unit == "m" and name not in marks and value and not 0.01 <= abs(value) / scales.spacing <= 100:
+            yield f"strategy {choice.name}: {name} is {value:.3g} m, but agents are {scales.spacing:.3g} m apart"
