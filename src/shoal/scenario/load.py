@@ -210,7 +210,7 @@ def _left_open(choice: StrategyChoice) -> str:
     """The parameters that a strategy leaves to follow the scenario, as a comment."""
     follows = following(choice.owner)
     return f"#\n# strategy {choice.name}\n" + "".join(
-        f"#     {name} = {value:.6g}  # {follows[name].length}\n" for name, value in choice.open.items()
+        f"#     {name} = {value:.6g}  # {follows[name]}\n" for name, value in choice.open.items()
     )
 
 

@@ -33,9 +33,14 @@ class Scales(NamedTuple):
     def ratio(self, follows: Follows, symbol: str) -> float:
         """Return how many times the paper's a quantity in m or s is here.
 
-        follows : which length; symbol : SI unit of the quantity, "m" or "s"
+        follows : which lengths; symbol : SI unit of the quantity, "m" or "s"
         """
-        here, there = getattr(self, follows.length), getattr(PAPER, follows.length)
+        first, *others = (self._times(length, symbol) for length in follows.lengths)
+        mean = math.prod(each / first for each in others) ** (1 / len(follows.lengths))  # 1 where all are alike
+        return first * mean
+
+    def _times(self, length: str, symbol: str) -> float:
+        here, there = getattr(self, length), getattr(PAPER, length)
         return float((here / self.speed) / (there / PAPER.speed) if symbol == "s" else here / there)
 
 

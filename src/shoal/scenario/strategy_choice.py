@@ -8,7 +8,6 @@ from pydantic import BaseModel, ConfigDict, Field, create_model
 from pydantic import ValidationError as PydanticError
 from pydantic_core import PydanticCustomError, core_schema
 
-from shoal.core.errors import StrategyError
 from shoal.core.units import Choice, Doc, Follows, Range, Unit
 from shoal.scenario.scales import PAPER, Scales, followed
 from shoal.strategies import CATALOGUE, Strategy
@@ -202,11 +201,7 @@ def _model_of(name: str, key: Hashable) -> type[BaseModel]:
             kind: Any = Annotated[type(default), Field(strict=True, **limits)]
             kind = Annotated[kind, unit] if unit else kind
             follows = _mark(hints[field], Follows)
-            if follows and (type(default) is not float or unit is None or unit.symbol not in ("m", "s")):
-                problem = f"parameter {field!r} follows the {follows.length}, but is neither a length nor a time"
-                fix = f"annotate it with shoal.Meters or shoal.Seconds, and write its default as {field}: ... = 2.0"
-                raise StrategyError(f"strategy {name!r}", problem, fix)
-            also = {"follows": follows.length} if follows else None
+            also: Any = {"follows": list(follows.lengths)} if follows else None
             fields[field] = (kind, Field(default=default, description=description, json_schema_extra=also))
     config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
     return create_model(f"{params.__name__}Table", __config__=config, __doc__=params.__doc__, **fields)

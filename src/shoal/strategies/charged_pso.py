@@ -19,7 +19,10 @@ class ChargedPso(NamedTuple):
     inertia: Annotated[float, Range(), Doc("omega: share of the velocity kept from one step to the next")] = 0.7
     social: Annotated[float, Range(), Doc("c: largest share of the distance to the leader wanted in one step")] = 0.5
     charge: Annotated[
-        Meters, Follows("spacing"), Range(), Doc("q: two charges this far apart push each other this far in a step")
+        Meters,
+        Follows("spacing", "spacing", "step"),
+        Range(),
+        Doc("q: two charges this far apart push each other this far in a step"),
     ] = 0.63
     core: Annotated[
         Meters, Follows("spacing"), Range(), Doc("p_core: nearer ones push no harder than at this distance")

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any, get_type_hints
 
-from shoal.core.units import Unit
+from shoal.core.units import Follows, Unit
 from shoal.scenario.scales import Scales, scales_of
 from shoal.scenario.schema import Scenario
 from shoal.scenario.strategy_choice import StrategyChoice, following
@@ -54,13 +54,17 @@ def _lengths(choice: StrategyChoice, scales: Scales) -> Iterator[str]:
     """Parameters that were said and are far from what suits."""
     hints: dict[str, Any] = get_type_hints(choice.owner.params, include_extras=True)
     marks = following(choice.owner)
-    for name in choice.params.keys() - choice.open.keys():
+    for name in (each for each in choice.params if each not in choice.open):
         value, default = choice.params[name], choice.defaults[name]
         unit = next((each.symbol for each in getattr(hints[name], "__metadata__", ()) if isinstance(each, Unit)), "")
         if name in marks and value and not 1 / FAR_OFF <= value / default <= FAR_OFF:
             yield (
-                f"strategy {choice.name}: {name} is {value:.3g} {unit}; what suits a {marks[name].length} of "
-                f"{getattr(scales, marks[name].length):.3g} m is about {default:.3g} {unit}, its default; leave it out"
+                f"strategy {choice.name}: {name} is {value:.3g} {unit}; what suits a "
+                f"{_and(marks[name], scales)} is about {default:.3g} {unit}, its default; leave it out"
             )
         elif unit == "m" and name not in marks and value and not 0.01 <= abs(value) / scales.spacing <= 100:
             yield f"strategy {choice.name}: {name} is {value:.3g} m, but agents are {scales.spacing:.3g} m apart"
+
+
+def _and(follows: Follows, scales: Scales) -> str:
+    return " and a ".join(f"{each} of {getattr(scales, each):.3g} m" for each in dict.fromkeys(follows.lengths))
