@@ -1,5 +1,7 @@
 """The same scenario, larger and slower: every length and time multiplied, speeds and numbers as they are."""
 
+import copy
+
 import numpy as np
 import pytest
 
@@ -55,11 +57,11 @@ class TestScaled:
         ],
     )
     def test_a_quantity_by_its_unit(self, path, times):
-        small = scenario("oceans2020", RICH)
+        small = scenario("oceans2020", copy.deepcopy(RICH))
         assert at(small.scaled(8), path) == times * at(small, path)
 
     def test_what_was_left_open_follows(self):
-        large = scenario("oceans2020", RICH).scaled(8)
+        large = scenario("oceans2020", copy.deepcopy(RICH)).scaled(8)
         assert "chase" in large.fleets[0].strategy.open
         assert large.fleets[0].strategy.params["chase"] == 72.0
 

@@ -30,7 +30,7 @@ SPACING = (3000.0 * 2000.0 / 30) ** 0.5
 
 
 def bay(strategy, **changes):
-    return scenario("oceans2020", BAY | {"strategy": strategy} | changes)
+    return scenario("oceans2020", copy.deepcopy(BAY | {"strategy": strategy} | changes))
 
 
 class TestScales:
