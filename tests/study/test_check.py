@@ -9,7 +9,6 @@ from commands import shoal as command
 from scenarios import fleets, scenario
 
 POOL = {"repulsion_start": 0.5, "repulsion_min": 0.375, "repulsion_max": 1.5, "delta": 0.01, "repulsion_step": 1.0}
-LONG = 6000  # steps in which buoys of 1 m/s get to the walls
 BAY = {
     "area.width": 3000.0,
     "area.height": 2000.0,
@@ -17,9 +16,10 @@ BAY = {
     "time_step": 1.0,
     "steps": 1500,
     "fleets": [{**each, "sensor_radius": 150.0} for each in fleets((10, 4.0), (20, 1.0))],
-    "network.neighbors": 10,
+    "network": {"neighbors": 10, "range": 1000.0, "loss": 0.1},
     "targets": [{"kind": "walk", "radius": 5.0, "speed": 7.0, "persistence": 300.0}],
 }
+AT_A_WALL = {"strategy": "pursuit", "targets": [{"kind": "still", "radius": 5.0, "x": 1500.0, "y": 0.0}], "steps": 4000}
 
 
 def notes(changes, **options):
@@ -76,13 +76,11 @@ class TestUnsuited:
 class TestTrials:
     """Told from short runs."""
 
-    def test_lengths_of_a_pool_leave_a_bay_to_its_walls(self):
-        told = notes({"strategy": {"name": "knn-pso", **POOL}, "steps": LONG}, trials=True)
-        assert sum("were at a wall" in note for note in told) == 1
+    def test_agents_at_the_walls_are_seen(self):
+        assert sum("were at a wall" in note for note in notes(AT_A_WALL, trials=True)) == 1
 
-    def test_defaults_that_follow_do_not(self):
-        told = notes({"strategy": "knn-pso", "steps": LONG}, trials=True)
-        assert not any("were at a wall" in note for note in told)
+    def test_lengths_that_follow_leave_them_to_the_water(self):
+        assert not any("were at a wall" in note for note in notes({"strategy": "knn-pso"}, trials=True))
 
     def test_a_time_step_that_matters_is_said(self):
         told = shoal.check("oceans2020", trials=True, time_step=0.4, steps=4000)
@@ -96,9 +94,8 @@ class TestTrials:
         assert notes({"steps": 20}, trials=True) == notes({"steps": 20})
 
     def test_the_command_makes_them_unless_told(self, tmp_path, capsys):
-        (tmp_path / "pool.toml").write_text(
-            shoal.to_toml(bay({"strategy": {"name": "knn-pso", **POOL}, "steps": LONG}))
-        )
-        code, out, err = command(capsys, "check", tmp_path / "pool.toml", "--quick")
-        assert (code, "fine" in out, "repulsion_max is 1.5 m" in err, "wall" in err) == (0, True, True, False)
-        assert "wall" in command(capsys, "check", tmp_path / "pool.toml")[2]
+        (tmp_path / "wall.toml").write_text(shoal.to_toml(bay(AT_A_WALL)))
+        code, out, err = command(capsys, "check", tmp_path / "wall.toml", "--quick")
+        assert (code, "fine" in out, "wall" in err) == (0, True, False)
+        code, out, err = command(capsys, "check", tmp_path / "wall.toml")
+        assert (code, "fine" in out, "were at a wall" in err) == (0, True, True)

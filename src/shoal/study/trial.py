@@ -44,8 +44,8 @@ def _walls(scenario: Scenario, record: Any) -> list[str]:
     if share <= max(0.5, ROOM * edge):
         return []
     return [
-        f"in {RUNS} trial runs of {scenario.steps:,} steps, {share:.0%} of the agents were at a wall, and the middle "
-        "was left alone: the strategy drives them apart farther than the area is wide"
+        f"in {RUNS} trial runs of {scenario.steps:,} steps, {share:.0%} of the agents were at a wall: do the "
+        "lengths of the strategy suit the area?"
     ]
 
 
