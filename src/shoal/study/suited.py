@@ -57,7 +57,7 @@ def _lengths(choice: StrategyChoice, scales: Scales) -> Iterator[str]:
     for name in (each for each in choice.params if each not in choice.open):
         value, default = choice.params[name], choice.defaults[name]
         unit = next((each.symbol for each in getattr(hints[name], "__metadata__", ()) if isinstance(each, Unit)), "")
-        if name in marks and value and not 1 / FAR_OFF <= value / default <= FAR_OFF:
+        if name in marks and value and default and not 1 / FAR_OFF <= value / default <= FAR_OFF:
             yield (
                 f"strategy {choice.name}: {name} is {value:.3g} {unit}; what suits a "
                 f"{_and(marks[name], scales)} is about {default:.3g} {unit}, its default; leave it out"

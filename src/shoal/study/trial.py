@@ -65,6 +65,6 @@ def _finer(scenario: Scenario, record: Any) -> list[str]:
         return []
     return [
         f"half the time_step moves the time on target by {moved.mean:+.2f} +- {error:.2f} (an estimate, by {RUNS} "
-        f"trial runs of {scenario.steps:,} steps): what acts once per step, such as inertia and social, acts more "
-        "often then; compare only what has one time_step"
+        f"trial runs of {scenario.steps:,} steps): what acts once per step, such as inertia, social and the max_turn "
+        "of a target, acts more often then; compare only what has one time_step"
     ]
