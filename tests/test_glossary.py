@@ -26,7 +26,7 @@ moving name named netcdf new nmea no now numba older one option output over page
 picture place placement plain play plot plugin print private progress published quantity range read reason recorded
 reproduce restart result robustness running said saved scaled schema scored seek seen self sensing sensitivity
 sensor server several shoal show side signal simulate simulation size stamp startup statement statistic stop
-stopped strategy style suited summary swept table text top tree trial unknown varied vehicle version view wanted watch
+stopped strategy style suited summary swept table text top tree unknown varied vehicle version view wanted watch
 watched word writer xml
 """  # words that mean what any dictionary says, and file formats
 PLAIN = frozenset(DICTIONARY.split())
