@@ -43,7 +43,7 @@ class TestUnsuited:
         assert notes({}) == []
         (told,) = notes({"strategy": "encircle"})
         assert told == (
-            "strategy encircle follows the scenario: chase = 1.42e+03, ring = 147, spacing = 310, patience = 101"
+            "strategy encircle follows the scenario: chase = 1,420, ring = 147, spacing = 310, patience = 101"
         )
 
     @pytest.mark.parametrize(
@@ -58,7 +58,7 @@ class TestUnsuited:
                 "ring is 0.95 m; what suits a reach of 155 m is about 147",
             ),
             ({"strategy": {"name": "encircle", "patience": 1.0}}, "patience is 1 s"),
-            ({"strategy": {"name": "knn-pso", "repulsion_max": "9 km"}}, "repulsion_max is 9e+03 m"),
+            ({"strategy": {"name": "knn-pso", "repulsion_max": "9 km"}}, "repulsion_max is 9,000 m"),
             ({"fleets.1.strategy": {"name": "knn-pso", "delta": 1e-4}}, "delta is 0.0001 m"),
         ],
     )

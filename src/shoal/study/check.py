@@ -6,7 +6,7 @@ from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
 from shoal.scenario.on_track import open_tracks
 from shoal.scenario.schema import Scenario
-from shoal.study.suited import unsuited
+from shoal.study.suited import rounded, unsuited
 
 
 def check(scenario: Source, *, trials: bool = False, **changes: Any) -> list[str]:
@@ -40,7 +40,7 @@ def _followed(scenario: Scenario) -> list[str]:
     choices = [fleet.strategy or scenario.strategy for fleet in scenario.fleets]
     return [
         f"strategy {choice.name} follows the scenario: "
-        + ", ".join(f"{name} = {value:.3g}" for name, value in choice.open.items())
+        + ", ".join(f"{name} = {rounded(value)}" for name, value in choice.open.items())
         for choice in dict.fromkeys(choices)
         if choice.open
     ]

@@ -24,14 +24,14 @@ def unsuited(scenario: Scenario) -> list[str]:
 def _steps(scenario: Scenario, scales: Scales) -> Iterator[str]:
     if scales.step > scales.reach:
         yield (
-            f"the fastest agent goes {scales.step:.3g} m in a time-step, farther than the {scales.reach:.3g} m at "
+            f"the fastest agent goes {rounded(scales.step)} m in a time-step, farther than the {rounded(scales.reach)} m at "
             f"which targets are detected: it jumps over them; lower time_step below {scales.reach / scales.speed:.2g} s"
         )
     target = max((getattr(each, "speed", None) or 0.0 for each in scenario.targets), default=0.0)
     if target * scenario.time_step > 2 * scales.reach:
         yield (
-            f"a target goes {target * scenario.time_step:.3g} m in a time-step, farther than the "
-            f"{2 * scales.reach:.3g} m across which an agent detects it: it slips through unseen; lower time_step "
+            f"a target goes {rounded(target * scenario.time_step)} m in a time-step, farther than the "
+            f"{rounded(2 * scales.reach)} m across which an agent detects it: it slips through unseen; lower time_step "
             f"below {2 * scales.reach / target:.2g} s"
         )
 
@@ -40,12 +40,12 @@ def _distances(scenario: Scenario, scales: Scales) -> Iterator[str]:
     if scales.reach < FEW * scales.spacing:
         seen = 100 * 3.14159 * (scales.reach / scales.spacing) ** 2
         yield (
-            f"agents detect a target within {scales.reach:.3g} m, but are {scales.spacing:.3g} m apart if spread "
+            f"agents detect a target within {rounded(scales.reach)} m, but are {rounded(scales.spacing)} m apart if spread "
             f"evenly: together they see {seen:.2g} % of the area; is a sensor_radius missing, or are agents?"
         )
     if scenario.network.range is not None and scenario.network.range < scales.spacing:
         yield (
-            f"the radio reaches {scenario.network.range:.3g} m, less than the {scales.spacing:.3g} m between agents "
+            f"the radio reaches {rounded(scenario.network.range)} m, less than the {rounded(scales.spacing)} m between agents "
             "that are spread evenly: most hear nobody"
         )
 
@@ -59,12 +59,17 @@ def _lengths(choice: StrategyChoice, scales: Scales) -> Iterator[str]:
         unit = next((each.symbol for each in getattr(hints[name], "__metadata__", ()) if isinstance(each, Unit)), "")
         if name in marks and value and default and not 1 / FAR_OFF <= value / default <= FAR_OFF:
             yield (
-                f"strategy {choice.name}: {name} is {value:.3g} {unit}; what suits a "
-                f"{_and(marks[name], scales)} is about {default:.3g} {unit}, its default; leave it out"
+                f"strategy {choice.name}: {name} is {rounded(value)} {unit}; what suits a "
+                f"{_and(marks[name], scales)} is about {rounded(default)} {unit}, its default; leave it out"
             )
         elif unit == "m" and name not in marks and value and not 0.01 <= abs(value) / scales.spacing <= 100:
-            yield f"strategy {choice.name}: {name} is {value:.3g} m, but agents are {scales.spacing:.3g} m apart"
+            yield f"strategy {choice.name}: {name} is {rounded(value)} m, but agents are {rounded(scales.spacing)} m apart"
 
 
 def _and(follows: Follows, scales: Scales) -> str:
-    return " and a ".join(f"{each} of {getattr(scales, each):.3g} m" for each in dict.fromkeys(follows.lengths))
+    return " and a ".join(f"{each} of {rounded(getattr(scales, each))} m" for each in dict.fromkeys(follows.lengths))
+
+
+def rounded(value: float) -> str:
+    """Three digits of a number: 0.501, 79.3, 1,420."""
+    return f"{float(f'{value:.3g}'):,.0f}" if 1000 <= abs(value) < 1e9 else f"{value:.3g}"

@@ -10,6 +10,7 @@ from shoal.scenario.schema import Scenario
 
 RUNS = 4
 STEPS = 20_000  # of a trial run at most
+SHORTEST = 1e-20  # [s] of a time-step that can be halved
 FEWEST = 200  # at least: in fewer, nothing settles
 _PAIRS = 2.5e8  # pairs of agents x steps of a run: a second, about
 ROOM = 1.2  # times the agents on the outer rows of an even cover: that many are at a wall, and it is no fault
@@ -24,7 +25,9 @@ def tried(scenario: Scenario) -> list[str]:
     TrackError, StrategyError : what cannot run
     """
     steps = min(scenario.steps, STEPS, int(_PAIRS / scenario.agents**2))
-    if steps < FEWEST:
+    if steps < FEWEST <= scenario.steps:
+        return [f"no trial runs were made: {scenario.agents:,} agents are too many for a quick look"]
+    if steps < FEWEST or scenario.time_step < SHORTEST:
         return []
     coarse = scenario.with_(steps=steps)
     record = simulate(coarse, runs=RUNS, every=max(1, steps // 200))
@@ -54,8 +57,8 @@ def _finer(scenario: Scenario, record: Any) -> list[str]:
     finer = scenario.with_(
         time_step=scenario.time_step / 2,
         steps=2 * scenario.steps,
-        losses=[{**vars(each), "step": 2 * each.step} for each in scenario.losses],
-        joins=[{**vars(each), "step": 2 * each.step} for each in scenario.joins],
+        losses=[_later(each) for each in scenario.losses],
+        joins=[_later(each) for each in scenario.joins],
     )
     halved = simulate(finer, runs=RUNS).estimate("time_on_target").runs
     before = record.estimate("time_on_target").runs
@@ -68,3 +71,8 @@ def _finer(scenario: Scenario, record: Any) -> list[str]:
         f"trial runs of {scenario.steps:,} steps): what acts once per step, such as inertia, social and the max_turn "
         "of a target, acts more often then; compare only what has one time_step"
     ]
+
+
+def _later(change: Any) -> dict[str, Any]:
+    """A loss or a join at the same time in half the time-steps."""
+    return {**vars(change), "step": min(2 * change.step, 10**12)}
