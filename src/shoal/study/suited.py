@@ -1,5 +1,6 @@
 """Whether a scenario is one that its strategies were made for, told from what it says."""
 
+import math
 from collections.abc import Iterator
 from typing import Any, get_type_hints
 
@@ -22,31 +23,33 @@ def unsuited(scenario: Scenario) -> list[str]:
 
 
 def _steps(scenario: Scenario, scales: Scales) -> Iterator[str]:
+    reach = rounded(scales.reach)
     if scales.step > scales.reach:
         yield (
-            f"the fastest agent goes {rounded(scales.step)} m in a time-step, farther than the {rounded(scales.reach)} m at "
-            f"which targets are detected: it jumps over them; lower time_step below {scales.reach / scales.speed:.2g} s"
+            f"the fastest agent goes {rounded(scales.step)} m in a time-step, farther than the {reach} m at which targets "
+            f"are detected: it jumps over them; lower time_step below {rounded(scales.reach / scales.speed)} s"
         )
     target = max((getattr(each, "speed", None) or 0.0 for each in scenario.targets), default=0.0)
     if target * scenario.time_step > 2 * scales.reach:
         yield (
-            f"a target goes {rounded(target * scenario.time_step)} m in a time-step, farther than the "
-            f"{rounded(2 * scales.reach)} m across which an agent detects it: it slips through unseen; lower time_step "
-            f"below {2 * scales.reach / target:.2g} s"
+            f"a target goes {rounded(target * scenario.time_step)} m in a time-step, farther than across the {reach} m "
+            "around an agent in which it is detected: it slips through unseen; lower time_step below "
+            f"{rounded(2 * scales.reach / target)} s"
         )
 
 
 def _distances(scenario: Scenario, scales: Scales) -> Iterator[str]:
+    spacing, radio = rounded(scales.spacing), scenario.network.range
     if scales.reach < FEW * scales.spacing:
-        seen = 100 * 3.14159 * (scales.reach / scales.spacing) ** 2
+        seen = 100 * math.pi * (scales.reach / scales.spacing) ** 2
         yield (
-            f"agents detect a target within {rounded(scales.reach)} m, but are {rounded(scales.spacing)} m apart if spread "
-            f"evenly: together they see {seen:.2g} % of the area; is a sensor_radius missing, or are agents?"
+            f"agents detect a target within {rounded(scales.reach)} m, but are {spacing} m apart if spread evenly: "
+            f"together they see {seen:.2g} % of the area; is a sensor_radius missing, or are agents?"
         )
-    if scenario.network.range is not None and scenario.network.range < scales.spacing:
+    if radio is not None and radio < scales.spacing:
         yield (
-            f"the radio reaches {rounded(scenario.network.range)} m, less than the {rounded(scales.spacing)} m between agents "
-            "that are spread evenly: most hear nobody"
+            f"the radio reaches {rounded(radio)} m, less than the {spacing} m between agents that are spread evenly: "
+            "most hear nobody"
         )
 
 
@@ -63,7 +66,8 @@ def _lengths(choice: StrategyChoice, scales: Scales) -> Iterator[str]:
                 f"{_and(marks[name], scales)} is about {rounded(default)} {unit}, its default; leave it out"
             )
         elif unit == "m" and name not in marks and value and not 0.01 <= abs(value) / scales.spacing <= 100:
-            yield f"strategy {choice.name}: {name} is {rounded(value)} m, but agents are {rounded(scales.spacing)} m apart"
+            apart = rounded(scales.spacing)
+            yield f"strategy {choice.name}: {name} is {rounded(value)} m, but agents are {apart} m apart"
 
 
 def _and(follows: Follows, scales: Scales) -> str:
