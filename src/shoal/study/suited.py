@@ -26,8 +26,8 @@ def _steps(scenario: Scenario, scales: Scales) -> Iterator[str]:
     reach = rounded(scales.reach)
     if scales.step > scales.reach:
         yield (
-            f"the fastest agent goes {rounded(scales.step)} m in a time-step, farther than the {reach} m at which targets "
-            f"are detected: it jumps over them; lower time_step below {rounded(scales.reach / scales.speed)} s"
+            f"the fastest agent goes {rounded(scales.step)} m in a time-step, farther than the {reach} m at which "
+            f"targets are detected: it jumps over them; lower time_step below {rounded(scales.reach / scales.speed)} s"
         )
     target = max((getattr(each, "speed", None) or 0.0 for each in scenario.targets), default=0.0)
     if target * scenario.time_step > 2 * scales.reach:
