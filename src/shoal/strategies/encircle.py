@@ -74,7 +74,7 @@ def decide(me, heard, memory, params, draw):
     _estimate(me, heard, memory, params)
     away_x = memory.station_x - memory.x
     away_y = memory.station_y - memory.y
-    away = math.sqrt(away_x * away_x + away_y * away_y) + _NEAR * me.briefing.reach
+    away = math.sqrt(away_x * away_x + away_y * away_y) + _near(me)
     fresh = me.time - memory.contact < params.patience
     if not fresh or away >= params.chase * me.max_speed / memory.speed:
         return toward(me, memory.station_x, memory.station_y)
@@ -142,10 +142,16 @@ def _distance(memory, x, y):
 
 
 @kernel
+def _near(me):
+    """So near that there is no direction [m], above zero where nothing is reached, too."""
+    return 1e-9 * me.briefing.reach + 1e-30
+
+
+@kernel
 def _correct(me, memory, x, y, wanted, params):
     """Move the estimate along the line from (x, y) until it is `wanted` away; turn its velocity, learn its speed."""
     distance = _distance(memory, x, y)
-    if distance < _NEAR * me.briefing.reach or wanted == distance:
+    if distance < _near(me) or wanted == distance:
         return
     change_x = (memory.x - x) * (wanted / distance - 1.0)
     change_y = (memory.y - y) * (wanted / distance - 1.0)
@@ -165,7 +171,6 @@ def _correct(me, memory, x, y, wanted, params):
 _NEVER = -1e9  # [s]
 _SOFTENING = 2.5e-7  # of spacing^2
 _NOTHING = 1e-60  # [m^2]: where the spacing is zero
-_NEAR = 1e-9  # of the reach
 _SLOWEST = 0.01  # [m/s]
 
 strategy(
