@@ -69,7 +69,8 @@ TARGETS = {  # one of every kind
     "track": "{kind='track', radius=1.0, file='track.csv', max_gap=25.0}",
 }
 SLOW, FAST = "{name='slow', count=30, max_speed=1.0", "{name='fast', count=15, max_speed=2.6"
-KNN, MEMORY, SHARED = "{name='knn-pso'}", "{name='memory-pso'}", "{name='shared-sighting'}"
+KNN, MEMORY = "{name='knn-pso'}", "{name='memory-pso'}"
+SHARED = "{name='shared-sighting', max_age=0.3}"  # said: left open it follows the reach, which is not 1 m everywhere
 
 
 def composed(

@@ -6,6 +6,8 @@ import replay
 from scenarios import fleets, scenario
 from shoal.core.agents import as_records
 from shoal.run.simulation import Simulation
+from shoal.scenario.strategy_choice import following
+from shoal.strategies import CATALOGUE
 
 ENDLESS = 1e9  # a top speed that limits nobody [m/s]
 NOWHERE = (1e6, 1e6)  # a target that nobody finds
@@ -15,14 +17,14 @@ DT = 0.1  # [s]
 def staged(strategy, places, targets=(NOWHERE,), top=ENDLESS, changes=None):
     """Agents at rest at these places [m] in an area of 20 m x 20 m, still targets of 1 m; everybody hears all.
 
-    strategy : its name and parameters; top : their top speed [m/s], or one each
+    strategy : its name and parameters, those that are not said as declared; top : their top speed [m/s], or one each
     """
     tops = np.broadcast_to(top, len(places))
     name, params = strategy if isinstance(strategy, tuple) else (strategy, {})
     chosen = scenario(
         "oceans2020",
         {
-            "strategy": {"name": name, **params},
+            "strategy": {"name": name, **declared(name), **params},
             "fleets": fleets(*((1, float(speed)) for speed in tops)),
             "network.neighbors": "all",
             "area.agent_margin": 0.0,
@@ -33,6 +35,12 @@ def staged(strategy, places, targets=(NOWHERE,), top=ENDLESS, changes=None):
     simulation = Simulation(chosen)
     put(simulation, places)
     return simulation
+
+
+def declared(name):
+    """The parameters that would follow the scenario, as they are said for the paper's."""
+    known = CATALOGUE[name]
+    return {each: known.params._field_defaults[each] for each in following(known)}
 
 
 def put(simulation, places):

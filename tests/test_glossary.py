@@ -24,9 +24,9 @@ interval is kept keyword kill kml label layout legend level library listen listi
 main map mark meaning measure message meta missing move moving name named netcdf new nmea no now numba older one
 opened option output over page paired panel param pause picture place placement plain play plot plugin polygon print
 private progress projected published quantity range read reason recorded reproduce resample restart result robustness
-running said saved schema scored seek seen self sensing sensitivity sensor server several shoal show side signal
-simulate simulation size stamp startup statement statistic stop stopped strategy style summary swept table text top
-tree turn unknown varied vehicle version view wanted watch watched weight word writer xml
+running said saved scaled schema scored seek seen self sensing sensitivity sensor server several shoal show side
+signal simulate simulation size stamp startup statement statistic stop stopped strategy style suited summary swept
+table text top tree turn unknown varied vehicle version view wanted watch watched weight word writer xml
 """  # words that mean what any dictionary says, and file formats
 PLAIN = frozenset(DICTIONARY.split())
 KINDS = [*TARGETS, *DISTURBANCES]

@@ -15,6 +15,7 @@ list_strategies, list_metrics, list_presets    what there is
 strategy, kernel, uniform, normal              to write a strategy, with the units
 Meters, MetersPerSecond, Seconds, Degrees      of its parameters
 Measurement, Sum, Metric                       to write a metric
+Follows                                        what their defaults follow
 Range, Doc                                    of the options of a target or a disturbance
 plot                                           every figure, in one line each
 Buoy, Reading, Report, briefing                to decide on board, without an engine
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from shoal.core.draws import normal, uniform
     from shoal.core.errors import ShoalError
     from shoal.core.messages import Reading, Report
-    from shoal.core.units import Degrees, Doc, Meters, MetersPerSecond, Range, Seconds
+    from shoal.core.units import Degrees, Doc, Follows, Meters, MetersPerSecond, Range, Seconds
     from shoal.metrics.contract import Measurement, Metric, Sum
     from shoal.paper.reproduce import reproduce
     from shoal.record.files import open_record, save_record
@@ -57,7 +58,7 @@ _HOMES = {
     "shoal.core.draws": ("normal", "uniform"),
     "shoal.core.errors": ("ShoalError",),
     "shoal.core.messages": ("Reading", "Report"),
-    "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Range", "Doc", "Seconds"),
+    "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Range", "Doc", "Follows", "Seconds"),
     "shoal.metrics.contract": ("Measurement", "Metric", "Sum"),
     "shoal.paper.reproduce": ("reproduce",),
     "shoal.record.files": ("open_record", "save_record"),
@@ -81,6 +82,7 @@ __all__ = [
     "Buoy",
     "Degrees",
     "Doc",
+    "Follows",
     "Measurement",
     "Meters",
     "MetersPerSecond",

@@ -6,9 +6,10 @@ import pytest
 from shoal.core.errors import ScenarioError
 from shoal.experiments.cells import make_cells
 from shoal.experiments.comparison import compare
-from shoal.experiments.contenders import contenders
+from shoal.experiments.contenders import contenders, with_parameters
 from shoal.experiments.run_comparison import by_condition, comparison_design, values_of
 from shoal.metrics.summary import METRICS
+from shoal.scenario.load import load
 
 NOISE = np.random.default_rng(3).normal(scale=0.05, size=(4, 10))
 
@@ -122,6 +123,31 @@ class TestContenders:
             (tmp_path / f"{name}.py").write_text(source.format(len(name) + (name == "two")))
         with pytest.raises(ScenarioError, match="are both called 'mine'"):
             contenders([str(tmp_path / "one.py"), str(tmp_path / "two.py")])
+
+
+class TestParameters:
+    """Of a strategy by its name: encircle.ring."""
+
+    def test_each_gets_its_own_and_the_scenario_the_rest(self):
+        changes = {"encircle.ring": 0.5, "steps": 9, "network.loss": 0.1}
+        own, left = with_parameters(contenders(["knn-pso", "encircle"]), changes)
+        assert {each.name: each.said for each in own} == {"knn-pso": {}, "encircle": {"ring": 0.5}, "lattice": {}}
+        assert left == {"steps": 9, "network.loss": 0.1}
+
+    def test_what_a_scenario_says_of_its_own_strategy_stays(self):
+        own, left = with_parameters(contenders(["knn-pso", "encircle"]), {"knn-pso.delta": 0.02})
+        cells = make_cells(comparison_design("oceans2020", own, 1, {"neighbors": [3]}), left)
+        chosen = {cell.scenario.strategy.name: cell.scenario.strategy.params for cell in cells}
+        assert chosen["knn-pso"] == load("oceans2020").strategy.params | {"delta": 0.02}
+        assert chosen["encircle"]["ring"] == 0.95
+        rows = [{"run_id": cell.run_id(0)} for cell in cells]
+        ((point, found),) = by_condition(cells, rows, 1, {each.choice: each.name for each in own})
+        assert (point, list(found)) == ({"neighbors": 3}, ["knn-pso", "encircle", "lattice"])
+
+    def test_one_that_it_has_not_is_refused(self):
+        own, left = with_parameters(contenders(["encircle"]), {"encircle.rang": 0.5})
+        with pytest.raises(ScenarioError, match="rang: unknown field"):
+            make_cells(comparison_design("oceans2020", own, 1), left)
 
 
 class TestByCondition:

@@ -44,9 +44,9 @@ def test_they_change_by_path():
 
 
 def test_lengths_of_none_of_them_grow_with_the_arena():
-    from shoal.scenario.on_track import scale_lengths
+    from shoal.scenario.scaled import multiplied
 
-    table = scale_lengths(disturbed(), 10.0)
+    table = multiplied(disturbed(), {"m": 10.0})
     assert table["disturbances"][0]["east"] == disturbed().disturbances[0].east
 
 

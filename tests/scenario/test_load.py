@@ -337,8 +337,8 @@ class TestFiles:
 
 KEYWORDS = {
     "$defs", "$ref", "additionalProperties", "anyOf", "const", "default", "description", "discriminator", "enum",
-    "exclusiveMaximum", "exclusiveMinimum", "items", "maxItems", "maximum", "minItems", "minLength", "minimum", "oneOf",
-    "pattern", "prefixItems", "properties", "required", "title", "type", "unit",
+    "exclusiveMaximum", "exclusiveMinimum", "follows", "items", "maxItems", "maximum", "minItems", "minLength",
+    "minimum", "oneOf", "pattern", "prefixItems", "properties", "required", "title", "type", "unit",
 }  # fmt: skip
 TYPES = {"object": dict, "array": (list, tuple), "string": str, "null": type(None), "boolean": bool}
 

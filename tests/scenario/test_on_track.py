@@ -5,12 +5,12 @@ import pytest
 from scenarios import scenario
 from shoal.run.simulation import Simulation
 from shoal.scenario.load import scenario_from
-from shoal.scenario.on_track import scale_lengths
+from shoal.scenario.scaled import multiplied
 
 RICH = {
     "steps": 300,
     "network.range": 6.0,
-    "fleets.0.strategy": "encircle",
+    "fleets.0.strategy": {"name": "encircle", "ring": 0.95, "patience": 1.0},
     "fleets.0.sensor_radius": 0.5,
     "targets.0.radius": 1.5,
 }
@@ -18,10 +18,10 @@ RICH = {
 
 @pytest.fixture(scope="module")
 def scaled():
-    return scale_lengths(scenario("oceans2020", RICH), 4.0)
+    return multiplied(scenario("oceans2020", RICH), {"m": 4.0})
 
 
-class TestScaleLengths:
+class TestLengths:
     """Lengths of the area, the radio, the fleets, the targets and every strategy."""
 
     @pytest.mark.parametrize(
@@ -47,11 +47,11 @@ class TestScaleLengths:
         assert at(scaled, path) == at(scenario("oceans2020", RICH).model_dump(mode="json"), path)
 
     def test_what_there_is_none_of_stays_none(self):
-        assert scale_lengths(scenario(), 4.0)["network"]["range"] is None
+        assert multiplied(scenario(), {"m": 4.0})["network"]["range"] is None
 
     def test_with_speeds_in_step_a_run_is_the_same(self):
-        """No length was forgotten. Not to the last bit: what keeps agents at one place apart is absolute."""
-        table = scale_lengths(scenario("oceans2020", RICH), 4.0)
+        """No length was forgotten; what is left open follows by itself."""
+        table = multiplied(scenario("oceans2020", RICH), {"m": 4.0})
         for part in (*table["fleets"], *table["targets"]):
             for name in ("max_speed", "speed"):
                 if name in part:

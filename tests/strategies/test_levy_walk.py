@@ -37,7 +37,7 @@ def test_lengths_of_legs_follow_the_power_law_between_their_bounds(exponent):
 
 
 def test_a_leg_is_straight_and_as_long_as_drawn():
-    simulation = walkers(40, shortest=0.4)
+    simulation = walkers(40, shortest=0.4, longest=20.0)
     first = np.ceil(simulation.memories.memory["leg"][:40] / 0.1 - 1e-9)  # steps of 0.1 m
     frames = simulation.advance(300, every=1)
     turned = np.abs(np.diff(frames.memory["heading"], axis=0)) > 0

@@ -3,7 +3,7 @@
 import math
 import re
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, get_type_hints
 
 from shoal.core.text import quoted
 
@@ -94,6 +94,42 @@ class Range:
     least: float = 0.0
     most: float = 1e12
     open: bool = False
+
+
+LENGTHS = ("spacing", "reach", "step")
+
+
+@dataclass(frozen=True, init=False)
+class Follows:
+    """Marks a length or a time whose default, said for the paper's scenario, follows a length of each scenario.
+
+    lengths : "spacing" of the agents, "reach" of their sensors or "step", the way that the fastest goes in a time-step;
+        of several the geometric mean. A time follows by how long the fastest takes for it. See scenario/scales.py
+    """
+
+    lengths: tuple[str, ...]
+
+    def __init__(self, *lengths: str) -> None:
+        for each in lengths or ("",):
+            if each not in LENGTHS:
+                raise ValueError(f"Follows({quoted(each)}): there are {', '.join(LENGTHS)}; name one or more")
+        object.__setattr__(self, "lengths", lengths)
+
+    def __str__(self) -> str:
+        """The lengths, each once."""
+        return " and ".join(dict.fromkeys(self.lengths))
+
+
+def follows_in_vain(params: Any) -> str:
+    """The first parameter of a NamedTuple class that follows a length, but is no float in m or s; else nothing."""
+    for name, hint in get_type_hints(params, include_extras=True).items():
+        marks = getattr(hint, "__metadata__", ())
+        measured = Unit("m") in marks or Unit("s") in marks
+        if any(isinstance(each, Follows) for each in marks) and not (
+            measured and type(params._field_defaults[name]) is float
+        ):
+            return name
+    return ""
 
 
 @dataclass(frozen=True)

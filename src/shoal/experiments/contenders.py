@@ -1,8 +1,9 @@
 """Contenders: the strategies of a comparison, by name or from a file, and the motionless lattice beside them."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.strategies import CATALOGUE
@@ -20,11 +21,34 @@ class Contender:
     name : of the strategy
     choice : what a design calls it: its name or its file
     informed : it knows the target: a reference, which no buoy could follow
+    said : {parameter: value} of its own; what is not said, it leaves at its defaults
     """
 
     name: str
     choice: str
     informed: bool
+    said: Mapping[str, Any] = field(default_factory=dict)
+
+    def changes(self) -> dict[str, Any]:
+        """What makes a scenario its own."""
+        return {"strategy": self.choice, **{f"strategy.{name}": value for name, value in self.said.items()}}
+
+
+def with_parameters(
+    everybody: Sequence[Contender], changes: Mapping[str, Any]
+) -> tuple[list[Contender], dict[str, Any]]:
+    """Give contenders what is said of them, as encircle.ring, and return them with the changes that are left."""
+    names = {each.name for each in everybody}
+    said = {path: value for path, value in changes.items() if path.partition(".")[0] in names and "." in path}
+    own = [
+        replace(each, said={path.partition(".")[2]: value for path, value in said.items() if _of(path, each)})
+        for each in everybody
+    ]
+    return own, {path: value for path, value in changes.items() if path not in said}
+
+
+def _of(path: str, contender: Contender) -> bool:
+    return path.partition(".")[0] == contender.name
 
 
 def contenders(named: Sequence[str]) -> list[Contender]:

@@ -31,7 +31,8 @@ def comparison_design(
     own = next((name for name in vary or {} if name.split(".")[0] == "strategy"), None)
     if own:
         raise ScenarioError(f"vary {own}", "strategies are what is compared", "vary a field that all of them share")
-    return Design(scenario, tuple(grid({"strategy": [each.choice for each in contenders], **(vary or {})})), runs)
+    points = [{**each.changes(), **point} for each in contenders for point in grid(vary or {})]
+    return Design(scenario, tuple(points), runs)
 
 
 def run_comparison(
@@ -65,7 +66,7 @@ def by_condition(
     known = {row["run_id"]: row for row in rows}
     found: dict[str, tuple[Point, dict[str, list[Row | None]]]] = {}
     for cell in cells:
-        point = {name: value for name, value in cell.point.items() if name != "strategy"}
+        point = {name: value for name, value in cell.point.items() if name.partition(".")[0] != "strategy"}
         _, strategies = found.setdefault(json.dumps(point), (point, {}))
         strategies[names[cell.point["strategy"]]] = [known.get(cell.run_id(run)) for run in range(runs)]
     return list(found.values())

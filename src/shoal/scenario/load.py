@@ -21,7 +21,7 @@ from shoal.scenario.frozen import MOST_ENTRIES, plain
 from shoal.scenario.recorded import RecordedScenario, RecordedStrategy
 from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Join, Loss, Motion, Network, Scenario
 from shoal.scenario.sea import FILES, FLOWS, TAGS, Sea
-from shoal.scenario.strategy_choice import StrategyParamsError, params_model
+from shoal.scenario.strategy_choice import StrategyChoice, StrategyParamsError, following, params_model
 from shoal.scenario.targets import TARGETS
 from shoal.strategies.plugins import find_strategy, load_strategies
 
@@ -201,7 +201,25 @@ def to_toml(scenario: Scenario) -> str:
     ------
     ScenarioError : it cannot run
     """
-    return tomli_w.dumps(_without_none(load(scenario).model_dump(mode="json")))
+    known = load(scenario)
+    text = tomli_w.dumps(_without_none(known.model_dump(mode="json")))
+    choices = [known.strategy, *(fleet.strategy for fleet in known.fleets if fleet.strategy)]
+    left = "".join(_left_open(choice) for choice in dict.fromkeys(choices) if choice.open)
+    return f"{text}\n{_FOLLOW}{left}" if left else text
+
+
+_FOLLOW = """\
+# What is not written follows the scenario: the spacing of the agents, the reach of their sensors, the step of the
+# fastest. Here that is as below; write it, and it no longer follows.
+"""
+
+
+def _left_open(choice: StrategyChoice) -> str:
+    """The parameters that a strategy leaves to follow the scenario, as a comment."""
+    follows = following(choice.owner)
+    return f"#\n# strategy {choice.name}\n" + "".join(
+        f"#     {name} = {value:.6g}  # {follows[name]}\n" for name, value in choice.open.items()
+    )
 
 
 def preset_text(name: str) -> str | None:

@@ -1,14 +1,13 @@
 """Put a scenario on a recorded track: the arena around it, the lengths with the arena, the speeds as they are."""
 
 from collections.abc import Mapping
-from typing import Any, get_args, get_type_hints
+from typing import Any
 
 import numpy as np
-from pydantic.fields import FieldInfo
 
 from shoal.core.errors import ScenarioError, TrackError
-from shoal.core.units import Unit
 from shoal.scenario.load import scenario_from
+from shoal.scenario.scaled import multiplied
 from shoal.scenario.schema import Scenario
 from shoal.scenario.targets import Target
 from shoal.tracks.read import read_track
@@ -25,7 +24,8 @@ def put_on_track(
     """Return the raw table of a scenario with a recorded track as its only target.
 
     If the scenario's area has no origin of its own, the area becomes the square around the track, and all lengths
-    (margins, target radius, sensor radii, the strategy's) grow with its side. Speeds and numbers of agents stay.
+    (margins, target radius, sensor radii, what it says of the strategy's) grow with its side. Speeds and numbers of
+    agents stay.
     The time-step and the steps cover the whole track. `options` are fields of the target that say how to read it,
     such as max_speed; its digest is left to `sign_tracks`, when nothing more will change.
 
@@ -46,7 +46,7 @@ def put_on_track(
     if scenario.area.origin is None:
         side = max(ROOM * max(np.ptp(track.x), np.ptp(track.y)), 1.0)
         factor = side / max(scenario.area.width, scenario.area.height)
-    placed = scale_lengths(scenario, factor)
+    placed = multiplied(scenario, {"m": factor})
     if scenario.area.origin is None:
         placed["area"] |= {"width": side, "height": side, "origin": list(track.origin)}
     placed["targets"] = [target | {"radius": placed["targets"][0]["radius"]}]
@@ -119,31 +119,3 @@ def _check_text(text: str) -> None:
         raise TrackError(
             shown, "is not text in the encoding of this terminal", "set PYTHONUTF8=1 or a UTF-8 locale, or rename it"
         ) from error
-
-
-def scale_lengths(scenario: Scenario, factor: float) -> dict[str, Any]:
-    """Return the table of a scenario with every length multiplied; times, speeds and counts stay."""
-    table: dict[str, Any] = scenario.model_dump(mode="json")
-    for model, part in (
-        (scenario.area, table["area"]),
-        (scenario.network, table["network"]),
-        *zip(scenario.fleets, table["fleets"], strict=True),
-        *zip(scenario.targets, table["targets"], strict=True),
-        *zip(scenario.disturbances, table["disturbances"], strict=True),
-    ):
-        for name, field in type(model).model_fields.items():
-            if _is_length(field) and part[name] is not None:
-                part[name] *= factor
-    own = [(fleet.strategy, part["strategy"]) for fleet, part in zip(scenario.fleets, table["fleets"], strict=True)]
-    for choice, part in ((scenario.strategy, table["strategy"]), *own):
-        hints = get_type_hints(choice.owner.params, include_extras=True) if choice else {}
-        for name in choice.params if choice else ():
-            if Unit("m") in getattr(hints[name], "__metadata__", ()):
-                part[name] *= factor
-    return table
-
-
-def _is_length(field: FieldInfo) -> bool:
-    """Whether a field is in m, or may be: Meters, or Meters | None."""
-    choices = (getattr(each, "__metadata__", ()) for each in get_args(field.annotation))
-    return any(Unit("m") in marks for marks in (field.metadata, *choices))

@@ -10,8 +10,9 @@ from shoal.core.errors import StrategyError
 from shoal.core.units import Meters, MetersPerSecond
 from shoal.scenario.disturbances import DISTURBANCES, AnyDisturbance
 from shoal.scenario.frozen import Frozen
+from shoal.scenario.scales import PAPER, Scales
 from shoal.scenario.schema import Fleet, Scenario
-from shoal.scenario.strategy_choice import StrategyChoice
+from shoal.scenario.strategy_choice import StrategyChoice, defaults_at, following
 from shoal.scenario.targets import TARGETS
 from shoal.strategies import Strategy
 from shoal.strategies.plugins import known_strategy
@@ -25,11 +26,14 @@ class RecordedStrategy(StrategyChoice):
     known : the strategy, where this process has that very one already; else None
     """
 
-    def __init__(self, table: Mapping[str, Any]) -> None:
+    def __init__(self, table: Mapping[str, Any], scales: Scales = PAPER) -> None:
         rest = dict(table)
         self.name, self.file, self.source = rest.pop("name"), rest.pop("file", None), rest.pop("source", None)
-        self.params = rest
         self.known = known_strategy(self.name, self.source)
+        self.scales = scales
+        self.defaults = defaults_at(self.known, scales) if self.known else {}
+        self._open = frozenset(following(self.known) if self.known else ()) - rest.keys()
+        self.params = {key: each for key, each in self.defaults.items() if key in self._open} | rest
 
     @property
     def owner(self) -> Strategy:
@@ -44,8 +48,12 @@ class RecordedStrategy(StrategyChoice):
             raise StrategyError(f"strategy {self.name!r}", problem, "load its scenario: shoal.load(record.scenario)")
         return self.known
 
+    def at(self, scales: Scales) -> "RecordedStrategy":
+        """Return the choice in a scenario of these scales."""
+        return RecordedStrategy(self.flat(), scales)
+
     def __reduce__(self) -> tuple[Any, ...]:
-        return RecordedStrategy, (self.flat(),)
+        return RecordedStrategy, (self.flat(), self.scales)
 
     @classmethod
     def validate(cls, value: Any) -> "RecordedStrategy":

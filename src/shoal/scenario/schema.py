@@ -22,6 +22,7 @@ from shoal.scenario.choices import headline
 from shoal.scenario.disturbances import Disturbance
 from shoal.scenario.durations import Steps, with_whole_steps
 from shoal.scenario.frozen import MOST_ENTRIES, Chance, Count, Frozen, Name, NotNegative, Positive
+from shoal.scenario.scales import scales_of
 from shoal.scenario.sea import Sea
 from shoal.scenario.strategy_choice import StrategyChoice
 from shoal.scenario.targets import MovingTarget, Target
@@ -198,6 +199,25 @@ class Scenario(Frozen):
 
         return load(self, **changes)
 
+    def scaled(self, factor: float | None = None, *, to: float | str | None = None) -> "Scenario":
+        """Return the scenario with its lengths and times multiplied; speeds, numbers and what counts in steps stay.
+
+        >>> shoal.load("oceans2020").scaled(to="3 km")
+
+        Parameters
+        ----------
+        factor : above 0; or
+        to : the longer side of the area wanted [m], or "3 km"
+
+        Raises
+        ------
+        ScenarioError : neither or both, nothing to scale by, or a scenario at a place on Earth
+        """
+        from shoal.scenario.load import load  # which needs this class
+        from shoal.scenario.scaled import scaled
+
+        return load(scaled(self, factor, to))
+
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """Return a copy with fields changed, validated; see `with_`, which knows shorthands and paths.
 
@@ -366,6 +386,16 @@ class Scenario(Frozen):
                 raise ValueError(
                     f"targets.{number}.margin is {target.margin:g} m and leaves waypoints no room; lower it"
                 )
+        return self
+
+    @model_validator(mode="after")
+    def _defaults_follow(self) -> Self:
+        scales = scales_of(self)
+        fleets = tuple(each.model_copy() for each in self.fleets)
+        for fleet in fleets:
+            if fleet.strategy:
+                vars(fleet)["strategy"] = fleet.strategy.at(scales)
+        vars(self).update(fleets=fleets, strategy=self.strategy.at(scales))
         return self
 
 

@@ -8,7 +8,8 @@ from pydantic import BaseModel, ConfigDict, Field, create_model
 from pydantic import ValidationError as PydanticError
 from pydantic_core import PydanticCustomError, core_schema
 
-from shoal.core.units import Choice, Doc, Range, Unit
+from shoal.core.units import Choice, Doc, Follows, Range, Unit
+from shoal.scenario.scales import PAPER, Scales, followed
 from shoal.strategies import CATALOGUE, Strategy
 from shoal.strategies.installed import installed_names, load_all_installed
 from shoal.strategies.plugins import find_strategy, load_strategies, source_of
@@ -22,30 +23,49 @@ class StrategyChoice:
     known : the strategy itself; name : what it is called
     file : the user's Python file that defines it, or None; source : hash of its text, or of an installed package's file
     params : {parameter: value}, words for choices
+    defaults : {parameter: value} where nothing is said, in a scenario of these scales
+    scales : of the scenario; the paper's until it is known
     """
 
-    def __init__(self, owner: Strategy, file: str | None, source: str | None, params: dict[str, Any]) -> None:
+    def __init__(
+        self, owner: Strategy, file: str | None, source: str | None, said: dict[str, Any], scales: Scales = PAPER
+    ) -> None:
         self.known: Strategy | None = owner
         self.name = owner.name
         self.file = file
         self.source = source
-        self.params = params
+        self.scales = scales
+        self.defaults = defaults_at(owner, scales)
+        self.params = self.defaults | said
+        self._open = frozenset(following(owner)) - said.keys()
 
     @property
     def owner(self) -> Strategy:
         """The strategy itself."""
         return cast(Strategy, self.known)
 
+    @property
+    def open(self) -> dict[str, Any]:
+        """The parameters that are left to follow the scenario, with what they are in it."""
+        return {key: each for key, each in self.params.items() if key in self._open and each == self.defaults[key]}
+
+    def at(self, scales: Scales) -> "StrategyChoice":
+        """Return the choice in a scenario of these scales: what was said stays, what was left open follows."""
+        open = self.open
+        said = {key: each for key, each in self.params.items() if key not in open}
+        return StrategyChoice(self.owner, self.file, self.source, said, scales)
+
     def flat(self) -> dict[str, Any]:
-        """The table as a scenario file spells it."""
-        loaded = {"file": self.file, "source": self.source}
-        return {"name": self.name, **{key: text for key, text in loaded.items() if text}, **self.params}
+        """The table as a scenario file spells it: without what is left to follow the scenario."""
+        loaded, open = {"file": self.file, "source": self.source}, self.open
+        said = {key: each for key, each in self.params.items() if key not in open}
+        return {"name": self.name, **{key: text for key, text in loaded.items() if text}, **said}
 
     def choices(self) -> dict[str, Any]:
-        """The table without the parameters that are left at their defaults."""
-        model = params_model(self.known).model_fields if self.known else {}
-        left = {key for key, each in self.params.items() if key in model and each == model[key].default}
-        return {key: each for key, each in self.flat().items() if key not in left}
+        """The table without the parameters that are at their defaults, said or not."""
+        return {
+            key: each for key, each in self.flat().items() if key not in self.defaults or each != self.defaults[key]
+        }
 
     def kernel_params(self) -> Any:
         """The strategy's NamedTuple of parameters: words become their index, numbers the type of the default."""
@@ -63,7 +83,7 @@ class StrategyChoice:
         return self.file is None and CATALOGUE.get(self.name, self.owner) is not self.owner
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, StrategyChoice) and self.flat() == other.flat()
+        return isinstance(other, StrategyChoice) and (self.flat(), self.params) == (other.flat(), other.params)
 
     def __hash__(self) -> int:
         return hash(tuple(sorted((key, str(value)) for key, value in self.flat().items())))
@@ -77,13 +97,14 @@ class StrategyChoice:
         return twin
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _revived, (self.flat(),)  # as a file would say it: compiled functions cannot travel
+        return _revived, (self.flat(), self.scales)  # as a file would say it: compiled functions cannot travel
 
     @classmethod
     def validate(cls, value: Any) -> "StrategyChoice":
         """Return the choice that a table describes; see `load_strategies` for files and packages."""
         if isinstance(value, StrategyChoice):  # one that somebody may have changed since
-            return StrategyChoice(value.owner, value.file, value.source, _filled(value.owner, value.params))
+            said = {key: each for key, each in value.params.items() if key not in value.open}
+            return StrategyChoice(value.owner, value.file, value.source, _valid(value.owner, said), value.scales)
         if isinstance(value, str):
             value = {"name": value}
         if not isinstance(value, dict) or "name" not in value:
@@ -96,7 +117,7 @@ class StrategyChoice:
             raise PydanticCustomError("strategy_name", "unknown strategy; there are: {known}", {"known": known})
         if file is None:
             source = source_of(owner)
-        return cls(owner, file, source, _filled(owner, table))
+        return cls(owner, file, source, _valid(owner, table))
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> core_schema.CoreSchema:
@@ -123,9 +144,9 @@ class StrategyChoice:
         return {"anyOf": [*(params_model(each).model_json_schema() for each in known), names, from_file]}
 
 
-def _revived(table: dict[str, Any]) -> StrategyChoice:
+def _revived(table: dict[str, Any], scales: Scales) -> StrategyChoice:
     """The choice of a pickled table, its file or package loaded."""
-    return StrategyChoice.validate(load_strategies(table))
+    return StrategyChoice.validate(load_strategies(table)).at(scales)
 
 
 class StrategyParamsError(Exception):
@@ -137,9 +158,26 @@ class StrategyParamsError(Exception):
         self.table = table
 
 
-def _filled(owner: Strategy, given: dict[str, Any]) -> dict[str, Any]:
-    """Every parameter of a strategy, valid."""
-    return params_model(owner)(**given).model_dump(exclude={"name"})
+def _valid(owner: Strategy, said: dict[str, Any]) -> dict[str, Any]:
+    """What is said of the parameters of a strategy, valid."""
+    filled = params_model(owner)(**said).model_dump(exclude={"name"})
+    return {key: each for key, each in filled.items() if key in said}
+
+
+def following(owner: Strategy) -> dict[str, Follows]:
+    """The parameters of a strategy whose defaults follow a length of the scenario, and which one."""
+    hints = get_type_hints(owner.params, include_extras=True)
+    return {name: mark for name, hint in hints.items() if (mark := _mark(hint, Follows))}
+
+
+def defaults_at(owner: Strategy, scales: Scales) -> dict[str, Any]:
+    """Every parameter of a strategy where nothing is said, in a scenario of these scales."""
+    hints = get_type_hints(owner.params, include_extras=True)
+    values = {name: field.default for name, field in params_model(owner).model_fields.items() if name != "name"}
+    return values | {
+        name: followed(values[name], follows, _mark(hints[name], Unit).symbol, _mark(hints[name], Range), scales)
+        for name, follows in following(owner).items()
+    }
 
 
 def params_model(owner: Strategy) -> type[BaseModel]:
@@ -162,7 +200,9 @@ def _model_of(name: str, key: Hashable) -> type[BaseModel]:
             limits = _limits(_mark(hints[field], Range), type(default))
             kind: Any = Annotated[type(default), Field(strict=True, **limits)]
             kind = Annotated[kind, unit] if unit else kind
-            fields[field] = (kind, Field(default=default, description=description))
+            follows = _mark(hints[field], Follows)
+            also: Any = {"follows": list(follows.lengths)} if follows else None
+            fields[field] = (kind, Field(default=default, description=description, json_schema_extra=also))
     config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
     return create_model(f"{params.__name__}Table", __config__=config, __doc__=params.__doc__, **fields)
 

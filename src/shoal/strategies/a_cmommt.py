@@ -13,7 +13,7 @@ from typing import Annotated, NamedTuple
 
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import normal, uniform
-from shoal.core.units import Doc, Meters, Range, Seconds
+from shoal.core.units import Doc, Follows, Meters, Range, Seconds
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import turned_from_walls
 
@@ -21,15 +21,19 @@ from shoal.strategies.parts import turned_from_walls
 class ACmommt(NamedTuple):
     """Parameters."""
 
-    target_near: Annotated[Meters, Range(), Doc("do1: nearer to a target the force pushes away")] = 0.5
-    target_full: Annotated[Meters, Range(), Doc("do2: from here on the attraction is full")] = 1.0
-    target_fade: Annotated[Meters, Range(), Doc("do3: from here on it fades")] = 4.0
-    target_end: Annotated[Meters, Range(), Doc("predictive tracking range: farther targets do not attract")] = 8.0
+    target_near: Annotated[Meters, Follows("reach"), Range(), Doc("do1: nearer to a target the force pushes away")] = (
+        0.5
+    )
+    target_full: Annotated[Meters, Follows("reach"), Range(), Doc("do2: from here on the attraction is full")] = 1.0
+    target_fade: Annotated[Meters, Follows("spacing"), Range(), Doc("do3: from here on it fades")] = 4.0
+    target_end: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("predictive tracking range: farther targets do not attract")
+    ] = 8.0
     target_weight: Annotated[float, Range(), Doc("w: force of a target that somebody watches already")] = 1.0
-    mate_full: Annotated[Meters, Range(), Doc("dr1: nearer mates push with full force")] = 1.0
-    mate_end: Annotated[Meters, Range(), Doc("dr2: farther mates do not push")] = 3.0
+    mate_full: Annotated[Meters, Follows("spacing"), Range(), Doc("dr1: nearer mates push with full force")] = 1.0
+    mate_end: Annotated[Meters, Follows("spacing"), Range(), Doc("dr2: farther mates do not push")] = 3.0
     mate_weight: Annotated[float, Range(), Doc("force of a mate beside that of a target")] = 0.5
-    persistence: Annotated[Seconds, Range(open=True), Doc("of the walk where no force acts")] = 5.0
+    persistence: Annotated[Seconds, Follows("spacing"), Range(open=True), Doc("of the walk where no force acts")] = 5.0
 
 
 def begin(me, memory, params, draw):
@@ -80,7 +84,7 @@ def pull_of_target(r, params):
     return rise * fade
 
 
-_SOFTENING = 1e-24  # [m^2]
+_SOFTENING = 1e-60  # [m^2]
 _NOTHING = 1e-9
 
 strategy(

@@ -11,7 +11,7 @@ import math
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import uniform
-from shoal.core.units import Doc, Meters, Range
+from shoal.core.units import Doc, Follows, Meters, Range
 from shoal.strategies.contract import strategy
 
 
@@ -21,7 +21,10 @@ class AttractionRepulsion(NamedTuple):
     inertia: Annotated[float, Range(), Doc("omega: share of the velocity kept from one step to the next")] = 0.7
     social: Annotated[float, Range(), Doc("c: largest share of the distance to the leader wanted in one step")] = 0.5
     equilibrium: Annotated[
-        Meters, Range(open=True), Doc("r_eq: distance at which two agents neither attract nor repel")
+        Meters,
+        Follows("spacing"),
+        Range(open=True),
+        Doc("r_eq: distance at which two agents neither attract nor repel"),
     ] = 2.4
     attraction: Annotated[
         float, Range(open=True), Doc("a: share of the distance to a far neighbor wanted in one step")

@@ -9,7 +9,7 @@ import math
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import uniform
-from shoal.core.units import Doc, Meters, Range
+from shoal.core.units import Doc, Follows, Meters, Range
 from shoal.strategies.contract import strategy
 
 
@@ -18,9 +18,16 @@ class ChargedPso(NamedTuple):
 
     inertia: Annotated[float, Range(), Doc("omega: share of the velocity kept from one step to the next")] = 0.7
     social: Annotated[float, Range(), Doc("c: largest share of the distance to the leader wanted in one step")] = 0.5
-    charge: Annotated[Meters, Range(), Doc("q: two charges this far apart push each other this far in a step")] = 0.63
-    core: Annotated[Meters, Range(), Doc("p_core: nearer ones push no harder than at this distance")] = 0.3
-    perception: Annotated[Meters, Range(), Doc("p: those farther away do not push")] = 4.0
+    charge: Annotated[
+        Meters,
+        Follows("spacing", "spacing", "step"),
+        Range(),
+        Doc("q: two charges this far apart push each other this far in a step"),
+    ] = 0.63
+    core: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("p_core: nearer ones push no harder than at this distance")
+    ] = 0.3
+    perception: Annotated[Meters, Follows("spacing"), Range(), Doc("p: those farther away do not push")] = 4.0
 
 
 def influence(me, other, params):
@@ -49,6 +56,6 @@ def decide(me, heard, memory, params, draw):
     return params.inertia * me.vx + rate * step_x, params.inertia * me.vy + rate * step_y
 
 
-_SOFTENING = 1e-24  # [m^2]
+_SOFTENING = 1e-60  # [m^2]
 
 strategy("charged-pso", params=ChargedPso, influence=influence, reference="Blackwell, Bentley, GECCO 2002")(decide)

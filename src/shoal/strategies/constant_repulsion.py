@@ -7,7 +7,7 @@ case); Kwa et al., OCEANS 2020, Eqs. 2-4 without Algorithm 1.
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import uniform
-from shoal.core.units import Doc, Meters, Range
+from shoal.core.units import Doc, Follows, Meters, Range
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import inverse_power, power
 
@@ -18,10 +18,12 @@ class ConstantRepulsion(NamedTuple):
     inertia: Annotated[float, Range(), Doc("omega: share of the velocity kept from one step to the next")] = 1.0
     social: Annotated[float, Range(), Doc("c: largest share of the distance to the leader wanted in one step")] = 0.5
     repulsion: Annotated[
-        Meters, Range(), Doc("a_R; sqrt(pi R^2 / N) with R = 2 m and N = 50 in the published runs")
+        Meters, Follows("spacing"), Range(), Doc("a_R; sqrt(pi R^2 / N) with R = 2 m and N = 50 in the published runs")
     ] = 0.5013256549262001
     repulsion_exponent: Annotated[float, Range(0.0, 100.0), Doc("d: steepness of the repulsion")] = 6.0
-    repulsion_step: Annotated[Meters, Range(), Doc("displacement by a neighbor at distance a_R in one step")] = 1.0
+    repulsion_step: Annotated[
+        Meters, Follows("step"), Range(), Doc("displacement by a neighbor at distance a_R in one step")
+    ] = 1.0
 
 
 def influence(me, other, params):

@@ -21,6 +21,7 @@ from shoal.core.errors import StrategyError, did_you_mean
 from shoal.core.keywords import lists_keywords
 from shoal.core.messages import Heard
 from shoal.core.text import checked_name
+from shoal.core.units import follows_in_vain
 from shoal.strategies.rank import asks_for_rank
 
 
@@ -129,8 +130,8 @@ def strategy(name: str, **declared: Unpack[Declaration]) -> Callable[[Callable[.
     Raises
     ------
     StrategyError : another keyword; params are missing, not a NamedTuple, another strategy's, or one has no default;
-        a field is told that is not remembered; sums are not names; a function takes other arguments, or asks for what
-        it cannot know
+        a parameter follows that is no length or time; a field is told that is not remembered; sums are not names; a
+        function takes other arguments, or asks for what it cannot know
     """
 
     where = f"strategy {name!r}"
@@ -156,6 +157,9 @@ def strategy(name: str, **declared: Unpack[Declaration]) -> Callable[[Callable[.
         bare = [field for field in fields if field not in params._field_defaults]
         if bare:
             raise StrategyError(where, f"parameter {bare[0]!r} has no default", f"write {bare[0]}: float = ...")
+        if vain := follows_in_vain(params):
+            fix = f"annotate it with shoal.Meters or shoal.Seconds, with a default such as {vain}: ... = 2.0"
+            raise StrategyError(where, f"parameter {vain!r} follows, but is neither a length nor a time", fix)
         taken = [field for field in fields if field in RESERVED]
         if taken:
             raise StrategyError(where, f"parameter {taken[0]!r} is a word of the [strategy] table", "rename it")

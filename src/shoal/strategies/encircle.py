@@ -20,28 +20,33 @@ import math
 from typing import Annotated, NamedTuple
 
 from shoal.compiler.kernel import kernel
-from shoal.core.units import Doc, Meters, Range, Seconds
+from shoal.core.units import Doc, Follows, Meters, Range, Seconds
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import own_station, toward
 
 
 class Encircle(NamedTuple):
-    """Parameters; lengths suit targets of 1 m seen in an arena of 20 m."""
+    """Parameters."""
 
     spread: Annotated[float, Range(0.0, 1.0), Doc("stations cover this share of the sides that agents may go to")] = (
         0.82
     )
     chase: Annotated[
-        Meters, Range(), Doc("how far from its station an agent as fast as the target goes to meet it")
+        Meters,
+        Follows("spacing"),
+        Range(),
+        Doc("how far from its station an agent as fast as the target goes to meet it"),
     ] = 9.0
-    ring: Annotated[Meters, Range(), Doc("distance of the ring from the estimate")] = 0.95
-    spacing: Annotated[Meters, Range(), Doc("agents on the ring push each other when nearer than this")] = 2.0
+    ring: Annotated[Meters, Follows("reach"), Range(), Doc("distance of the ring from the estimate")] = 0.95
+    spacing: Annotated[
+        Meters, Follows("reach"), Range(), Doc("agents on the ring push each other when nearer than this")
+    ] = 2.0
     push: Annotated[float, Range(), Doc("how strongly, as a share of the distance to the neighbor")] = 0.3
     lead: Annotated[
         float, Range(), Doc("share of the time to get there by which the ring is ahead of the estimate")
     ] = 0.1
     patience: Annotated[
-        Seconds, Range(), Doc("after so long without contact agents go home and forget the estimate")
+        Seconds, Follows("reach"), Range(), Doc("after so long without contact agents go home and forget the estimate")
     ] = 1.0
     learn: Annotated[
         float, Range(0.0, 1.0), Doc("share of a correction along the path that goes into the estimated speed")
@@ -59,7 +64,8 @@ def influence(me, other, params):
     """Push away from neighbors within the spacing, as steeply as (spacing / r)^2 - 1."""
     dx = me.x - other.x
     dy = me.y - other.y
-    push = max(0.0, params.spacing * params.spacing / (dx * dx + dy * dy + _SOFTENING) - 1.0)
+    square = params.spacing * params.spacing
+    push = max(0.0, square / (dx * dx + dy * dy + (_SOFTENING * square + _NOTHING)) - 1.0)
     return push * dx, push * dy
 
 
@@ -68,7 +74,7 @@ def decide(me, heard, memory, params, draw):
     _estimate(me, heard, memory, params)
     away_x = memory.station_x - memory.x
     away_y = memory.station_y - memory.y
-    away = math.sqrt(away_x * away_x + away_y * away_y) + 1e-9
+    away = math.sqrt(away_x * away_x + away_y * away_y) + _near(me)
     fresh = me.time - memory.contact < params.patience
     if not fresh or away >= params.chase * me.max_speed / memory.speed:
         return toward(me, memory.station_x, memory.station_y)
@@ -92,16 +98,16 @@ def _estimate(me, heard, memory, params):
         if not known:
             _start(memory, me.x, me.y)
         distance = _distance(memory, me.x, me.y)
-        _correct(memory, me.x, me.y, reach if memory.was_on == 0.0 else min(distance, reach), me.time_step, params)
+        _correct(me, memory, me.x, me.y, reach if memory.was_on == 0.0 else min(distance, reach), params)
         memory.contact = me.time
     elif known or heard.found:
         if heard.found:
             if not known:
                 _start(memory, heard.x, heard.y)
             within = min(_distance(memory, heard.x, heard.y), reach)
-            _correct(memory, heard.x, heard.y, within, me.time_step, params)
+            _correct(me, memory, heard.x, heard.y, within, params)
             memory.contact = me.time
-        _correct(memory, me.x, me.y, max(_distance(memory, me.x, me.y), reach), me.time_step, params)
+        _correct(me, memory, me.x, me.y, max(_distance(memory, me.x, me.y), reach), params)
     memory.was_on = 1.0 if me.on_target else 0.0
 
 
@@ -136,20 +142,26 @@ def _distance(memory, x, y):
 
 
 @kernel
-def _correct(memory, x, y, wanted, time_step, params):
+def _near(me):
+    """So near that there is no direction [m], above zero where nothing is reached, too."""
+    return 1e-9 * me.briefing.reach + 1e-30
+
+
+@kernel
+def _correct(me, memory, x, y, wanted, params):
     """Move the estimate along the line from (x, y) until it is `wanted` away; turn its velocity, learn its speed."""
     distance = _distance(memory, x, y)
-    if distance < 1e-9 or wanted == distance:
+    if distance < _near(me) or wanted == distance:
         return
     change_x = (memory.x - x) * (wanted / distance - 1.0)
     change_y = (memory.y - y) * (wanted / distance - 1.0)
     speed = math.sqrt(memory.vx * memory.vx + memory.vy * memory.vy)
     along = (change_x * memory.vx + change_y * memory.vy) / max(speed, 1e-9)
-    memory.speed = max(memory.speed + params.learn * along / time_step, _SLOWEST)
+    memory.speed = max(memory.speed + params.learn * along / me.time_step, _SLOWEST)
     memory.x += change_x
     memory.y += change_y
-    memory.vx += change_x / time_step
-    memory.vy += change_y / time_step
+    memory.vx += change_x / me.time_step
+    memory.vy += change_y / me.time_step
     speed = math.sqrt(memory.vx * memory.vx + memory.vy * memory.vy)
     if speed > 1e-9:
         memory.vx *= memory.speed / speed
@@ -157,7 +169,8 @@ def _correct(memory, x, y, wanted, time_step, params):
 
 
 _NEVER = -1e9  # [s]
-_SOFTENING = 1e-6  # [m^2]
+_SOFTENING = 2.5e-7  # of spacing^2
+_NOTHING = 1e-60  # [m^2]: where the spacing is zero
 _SLOWEST = 0.01  # [m/s]
 
 strategy(

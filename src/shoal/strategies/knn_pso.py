@@ -7,7 +7,7 @@ Eqs. 2-4, Algorithms 1 and 2. The predecessor (Kwa, Leong Kit, Bouffanais, AAMAS
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import uniform
-from shoal.core.units import Choice, Doc, Meters, Range
+from shoal.core.units import Choice, Doc, Follows, Meters, Range
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import adapted, inverse_power, power
 
@@ -19,13 +19,19 @@ class KnnPso(NamedTuple):
     social: Annotated[float, Range(), Doc("c: largest share of the distance to the leader wanted in one step")] = 0.5
     social_draws: Annotated[int, Choice(("scalar", "per-axis")), Doc("r: one draw for both axes, or one each")] = 0
     follow: Annotated[int, Choice(("nearest", "lowest-index")), Doc("which neighbor on target is followed")] = 0
-    repulsion_start: Annotated[Meters, Range(), Doc("a_R at the start")] = 0.5013256549262001
-    repulsion_min: Annotated[Meters, Range(), Doc("a_R shrinks while above this and somebody is on target")] = 0.375
-    repulsion_max: Annotated[Meters, Range(), Doc("a_R grows while below this and nobody is on target")] = 1.5
-    delta: Annotated[Meters, Range(), Doc("growth of a_R in one step with nobody on target")] = 0.01
+    repulsion_start: Annotated[Meters, Follows("spacing"), Range(), Doc("a_R at the start")] = 0.5013256549262001
+    repulsion_min: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("a_R shrinks while above this and somebody is on target")
+    ] = 0.375
+    repulsion_max: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("a_R grows while below this and nobody is on target")
+    ] = 1.5
+    delta: Annotated[Meters, Follows("step"), Range(), Doc("growth of a_R in one step with nobody on target")] = 0.01
     shrink: Annotated[float, Range(), Doc("deltas that a_R shrinks by in one step with somebody on target")] = 1.0
     repulsion_exponent: Annotated[float, Range(0.0, 100.0), Doc("d: steepness of the repulsion")] = 6.0
-    repulsion_step: Annotated[Meters, Range(), Doc("displacement by a neighbor at distance a_R in one step")] = 1.0
+    repulsion_step: Annotated[
+        Meters, Follows("step"), Range(), Doc("displacement by a neighbor at distance a_R in one step")
+    ] = 1.0
 
 
 def begin(me, memory, params, draw):

@@ -9,7 +9,7 @@ import math
 from typing import Annotated, NamedTuple
 
 from shoal.compiler.kernel import kernel
-from shoal.core.units import Doc, Meters, Range
+from shoal.core.units import Doc, Follows, Meters, Range
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import own_station, toward
 
@@ -20,7 +20,9 @@ class LatticeIntercept(NamedTuple):
     spread: Annotated[
         float, Range(0.0, 1.0), Doc("the lattice covers this share of the sides that agents may go to")
     ] = 0.82
-    reach: Annotated[Meters, Range(), Doc("a meeting point nearer to the station than this is gone to")] = 2.4
+    reach: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("a meeting point nearer to the station than this is gone to")
+    ] = 2.4
 
 
 def begin(me, memory, params, draw):

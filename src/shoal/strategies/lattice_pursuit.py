@@ -5,7 +5,7 @@ Breaks the information rule: every agent is told where the target is.
 
 from typing import Annotated, NamedTuple
 
-from shoal.core.units import Doc, Meters, Range
+from shoal.core.units import Doc, Follows, Meters, Range
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import own_station, toward
 
@@ -16,7 +16,9 @@ class LatticePursuit(NamedTuple):
     spread: Annotated[
         float, Range(0.0, 1.0), Doc("the lattice covers this share of the sides that agents may go to")
     ] = 0.82
-    reach: Annotated[Meters, Range(), Doc("a target nearer to the station than this is pursued")] = 2.0
+    reach: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("a target nearer to the station than this is pursued")
+    ] = 2.0
 
 
 def begin(me, memory, params, draw):

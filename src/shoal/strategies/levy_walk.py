@@ -8,7 +8,7 @@ from typing import Annotated, NamedTuple
 
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import uniform
-from shoal.core.units import Doc, Meters, Range
+from shoal.core.units import Doc, Follows, Meters, Range
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import turned_from_walls
 
@@ -17,8 +17,8 @@ class LevyWalk(NamedTuple):
     """Parameters."""
 
     exponent: Annotated[float, Range(1.0, 5.0), Doc("mu: P(l) ~ l^-mu; 1 is nearly straight, 3 nearly Brownian")] = 2.0
-    shortest: Annotated[Meters, Range(open=True), Doc("shortest leg")] = 1.0
-    longest: Annotated[Meters, Range(open=True), Doc("longest leg")] = 20.0
+    shortest: Annotated[Meters, Follows("reach"), Range(open=True), Doc("shortest leg")] = 1.0
+    longest: Annotated[Meters, Follows("spacing"), Range(open=True), Doc("longest leg")] = 20.0
 
 
 def begin(me, memory, params, draw):
@@ -43,8 +43,7 @@ def leg_length(chance, exponent, shortest, longest):
     if exponent == 1.0:
         return shortest * (longest / shortest) ** chance
     power = 1.0 - exponent
-    low = shortest**power
-    return (low + chance * (longest**power - low)) ** (1.0 / power)
+    return shortest * (1.0 + chance * ((longest / shortest) ** power - 1.0)) ** (1.0 / power)
 
 
 strategy(

@@ -8,7 +8,7 @@ particle swarm optimization to dynamic environments", ICAI 2000 (outdated memory
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import uniform
-from shoal.core.units import Doc, Meters, Range, Seconds
+from shoal.core.units import Doc, Follows, Meters, Range, Seconds
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import adapted, inverse_power, power
 
@@ -21,13 +21,19 @@ class MemoryPso(NamedTuple):
         float, Range(), Doc("c1: largest share of the distance to the own best wanted in one step")
     ] = 0.5
     social: Annotated[float, Range(), Doc("c2: largest share of the distance to the leader wanted in one step")] = 0.5
-    max_age: Annotated[Seconds, Range(), Doc("the own best is forgotten when this old")] = 5.0
-    repulsion_start: Annotated[Meters, Range(), Doc("a_R at the start")] = 0.5013256549262001
-    repulsion_min: Annotated[Meters, Range(), Doc("a_R shrinks while above this and somebody is on target")] = 0.375
-    repulsion_max: Annotated[Meters, Range(), Doc("a_R grows while below this and nobody is on target")] = 1.5
-    delta: Annotated[Meters, Range(), Doc("change of a_R in one step")] = 0.01
+    max_age: Annotated[Seconds, Follows("spacing"), Range(), Doc("the own best is forgotten when this old")] = 5.0
+    repulsion_start: Annotated[Meters, Follows("spacing"), Range(), Doc("a_R at the start")] = 0.5013256549262001
+    repulsion_min: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("a_R shrinks while above this and somebody is on target")
+    ] = 0.375
+    repulsion_max: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("a_R grows while below this and nobody is on target")
+    ] = 1.5
+    delta: Annotated[Meters, Follows("step"), Range(), Doc("change of a_R in one step")] = 0.01
     repulsion_exponent: Annotated[float, Range(0.0, 100.0), Doc("d: steepness of the repulsion")] = 6.0
-    repulsion_step: Annotated[Meters, Range(), Doc("displacement by a neighbor at distance a_R in one step")] = 1.0
+    repulsion_step: Annotated[
+        Meters, Follows("step"), Range(), Doc("displacement by a neighbor at distance a_R in one step")
+    ] = 1.0
 
 
 def begin(me, memory, params, draw):

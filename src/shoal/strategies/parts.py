@@ -168,4 +168,4 @@ def _common_divisor(a, b):
 
 
 _LARGEST_PUSH = 1e100  # finite under any exponent, so that zero distance times it is zero
-_SOFTENING = 1e-24  # [m^2]: below the last digit of any distance over 10 nm
+_SOFTENING = 1e-60  # [m^2]: below the last digit of any distance that is not zero

@@ -8,7 +8,7 @@ import math
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import normal, uniform
-from shoal.core.units import Doc, Range, Seconds
+from shoal.core.units import Doc, Follows, Range, Seconds
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import turned_from_walls
 
@@ -16,7 +16,9 @@ from shoal.strategies.parts import turned_from_walls
 class RandomWalk(NamedTuple):
     """Parameters."""
 
-    persistence: Annotated[Seconds, Range(open=True), Doc("after this time the mean cosine of the turn is 1/e")] = 5.0
+    persistence: Annotated[
+        Seconds, Follows("spacing"), Range(open=True), Doc("after this time the mean cosine of the turn is 1/e")
+    ] = 5.0
 
 
 def begin(me, memory, params, draw):

@@ -10,7 +10,7 @@ step in which its report arrives: with a delayed radio, stamps are as late.
 from typing import Annotated, NamedTuple
 
 from shoal.core.draws import uniform
-from shoal.core.units import Doc, Meters, Range, Seconds
+from shoal.core.units import Doc, Follows, Meters, Range, Seconds
 from shoal.strategies.contract import strategy
 from shoal.strategies.parts import adapted, inverse_power, power
 
@@ -21,14 +21,21 @@ class SharedSighting(NamedTuple):
     inertia: Annotated[float, Range(), Doc("omega: share of the velocity kept from one step to the next")] = 1.0
     social: Annotated[float, Range(), Doc("c: largest share of the distance to the sighting wanted in one step")] = 0.5
     max_age: Annotated[
-        Seconds, Range(), Doc("an older sighting attracts nobody; 3 m/s leave a reach of 1 m in 0.33 s")
+        Seconds,
+        Follows("reach"),
+        Range(),
+        Doc("an older sighting attracts nobody; 3 m/s leave a reach of 1 m in 0.33 s"),
     ] = 0.3
-    repulsion_start: Annotated[Meters, Range(), Doc("a_R at the start")] = 0.5013256549262001
-    repulsion_min: Annotated[Meters, Range(), Doc("a_R shrinks while above this and a sighting is fresh")] = 0.375
-    repulsion_max: Annotated[Meters, Range(), Doc("a_R grows while below this and none is")] = 1.5
-    delta: Annotated[Meters, Range(), Doc("change of a_R in one step")] = 0.01
+    repulsion_start: Annotated[Meters, Follows("spacing"), Range(), Doc("a_R at the start")] = 0.5013256549262001
+    repulsion_min: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("a_R shrinks while above this and a sighting is fresh")
+    ] = 0.375
+    repulsion_max: Annotated[Meters, Follows("spacing"), Range(), Doc("a_R grows while below this and none is")] = 1.5
+    delta: Annotated[Meters, Follows("step"), Range(), Doc("change of a_R in one step")] = 0.01
     repulsion_exponent: Annotated[float, Range(0.0, 100.0), Doc("d: steepness of the repulsion")] = 6.0
-    repulsion_step: Annotated[Meters, Range(), Doc("displacement by a neighbor at distance a_R in one step")] = 1.0
+    repulsion_step: Annotated[
+        Meters, Follows("step"), Range(), Doc("displacement by a neighbor at distance a_R in one step")
+    ] = 1.0
 
 
 def begin(me, memory, params, draw):

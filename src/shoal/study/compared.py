@@ -20,7 +20,7 @@ from shoal.experiments.comparison_words import (
     value_text,
 )
 from shoal.experiments.compiled_first import compiled_first
-from shoal.experiments.contenders import contenders
+from shoal.experiments.contenders import contenders, with_parameters
 from shoal.experiments.executors import Executor, in_threads
 from shoal.experiments.replicate import Row
 from shoal.experiments.run_comparison import comparison_design, run_comparison, values_of
@@ -183,7 +183,8 @@ def compare(
     jobs : threads, one run each; default one per core
     out : keep all runs in this folder, a store as of a sweep; the same call again resumes
     progress : called as progress(runs done, runs in all) after every run
-    changes : to the scenario, in the words of the command line, as in `Scenario.with_`
+    changes : to the scenario, in the words of the command line, as in `Scenario.with_`; or to a strategy by its name,
+        such as **{"encircle.ring": 147}
 
     Raises
     ------
@@ -227,7 +228,7 @@ def compared(
     if metric not in METRICS:
         hint = did_you_mean(metric, METRICS)
         raise ScenarioError(f"metric {metric}", "is not a metric", f"{hint}there are: {', '.join(METRICS)}")
-    everybody = contenders(named)
+    everybody, changes = with_parameters(contenders(named), changes)
     names = [each.name for each in everybody]
     if baseline is not None and baseline not in names:
         hint = did_you_mean(baseline, names)

@@ -50,7 +50,8 @@ def compare(
     vary
         FIELD=1,2,3 or FIELD=from:to:step (end included): compare under every combination; may be repeated.
     assignments
-        Any field by its path, under all conditions; may be repeated.
+        Any field by its path, under all conditions, or a strategy's parameter by its name, encircle.ring=147; may be
+        repeated.
     metric
         What is compared; default time_on_target.
     baseline
