@@ -50,11 +50,13 @@ def _raised(base, exponent):
 def adapted(repulsion, contact, low, high, grow, shrink):
     """a_R after Algorithm 1 of OCEANS 2020, to the letter: test, then step, so it can end a step outside its range.
 
+    A step larger than a_R ends at 0: there is no shorter distance.
+
     repulsion, low, high : a_R and its range [m]; contact : whether the agent or a neighbor is on target; grow, shrink :
     the steps of a_R without and with contact [m]
     """
     if contact:
-        return repulsion - shrink if repulsion > low else repulsion
+        return max(repulsion - shrink, 0.0) if repulsion > low else repulsion
     return repulsion + grow if repulsion < high else repulsion
 
 
