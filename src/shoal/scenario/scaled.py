@@ -61,8 +61,23 @@ def _multiply(part: BaseModel, table: dict[str, Any], factors: Mapping[str, floa
         elif isinstance(value, tuple) and all(isinstance(each, BaseModel) for each in value):
             for each, entry in zip(value, table[name], strict=True):
                 _multiply(each, entry, factors)
+        elif isinstance(value, tuple) and _is_of_places(value):
+            table[name] = _times(value, factors.get("m", 1.0))
         elif value is not None and (unit := unit_of(field)) in factors:
             table[name] = value * factors[unit]
+
+
+def _is_of_places(value: Any) -> bool:
+    """Whether these are polygons: tuples of tuples of x and y [m]."""
+    while isinstance(value, tuple) and value and isinstance(value[0], tuple):
+        value = value[0]
+        if len(value) == 2 and all(isinstance(each, float) for each in value):
+            return True
+    return False
+
+
+def _times(value: Any, factor: float) -> Any:
+    return [_times(each, factor) for each in value] if isinstance(value, tuple) else value * factor
 
 
 def _multiply_params(choice: StrategyChoice, table: dict[str, Any], factors: Mapping[str, float]) -> None:
