@@ -33,7 +33,7 @@ from shoal.world.neighbors import count_heard, link_nearest, measure_distances, 
 from shoal.world.presence import update_presence
 from shoal.world.radio import adapt_degree, deafen, limit_links, lose_reports, said, send
 from shoal.world.sea.sea import carry, span
-from shoal.world.sea.sight import hide_behind_land
+from shoal.world.sea.sight import Places, hide_behind_land
 from shoal.world.sensing import sense
 from shoal.world.targets.dispatch import advance_target
 
@@ -90,7 +90,8 @@ def find_links(scratch, world, swarm, radio, effects, sea, number, first):
     if world.disturbed:
         deafen(links, effects, first, world.agents)
     if world.coastal:
-        hide_behind_land(links, scratch.sight, reports, swarm, sea.land, radio.range_square, first, world.agents)
+        speakers = Places(reports.x, reports.y)
+        hide_behind_land(links, scratch.sight, speakers, swarm, sea.land, radio.range_square, first, world.agents)
     if radio.limited:
         limit_links(links, swarm, radio, first, world.agents, number)
         link_nearest(links, links.wanted, world.agents)

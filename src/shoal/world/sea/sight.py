@@ -18,6 +18,13 @@ _SHORTEST = 0.5  # step along a line, in cells
 _SURE = 0.36  # cells that a line is below the shore so that no step leaps over it: more than SHORTEST / STEEPEST
 
 
+class Places(NamedTuple):
+    """Where speakers are, as waves go, (N,) each [m]."""
+
+    x: Floats
+    y: Floats
+
+
 class Sight(NamedTuple):
     """What is known of the pairs of N speakers and L listeners.
 
@@ -84,40 +91,42 @@ def look_along(land, x, y, other_x, other_y):
 
 
 @kernel
-def hide_behind_land(links, sight, reports, swarm, land, range_square, first, agents):
-    """Unlink speakers that land hides from the agents from `first` on."""
+def hide_behind_land(links, sight, speakers, swarm, land, range_square, first, agents):
+    """Unlink speakers, at Places, that land hides from the agents from `first` on."""
     square = links.square
     lanes = min(links.reach.size, agents - first)
     if sight.until.size == 0:  # one listener after the other: what is known would be another's
         for i in range(lanes):
             for j in range(agents):
                 if square[j, i] <= range_square and not in_sight(
-                    land, swarm.x[first + i], swarm.y[first + i], reports.x[j], reports.y[j]
+                    land, swarm.x[first + i], swarm.y[first + i], speakers.x[j], speakers.y[j]
                 ):
                     square[j, i] = np.inf
         return
-    sight.travelled[0] += _farthest(sight, reports, swarm, lanes, agents)
+    sight.travelled[0] += _farthest(sight, speakers, swarm, lanes, agents)
     travelled = sight.travelled[0]
     for j in range(agents):
         unsure = False
         for i in range(lanes):
             until = sight.until[j, i]
             unsure |= abs(until) <= travelled
-            square[j, i] = np.inf if until < 0.0 else square[j, i]
+            square[j, i] = np.inf if until < -travelled else square[j, i]
         if unsure:
             for i in range(lanes):
-                if abs(sight.until[j, i]) <= travelled:
-                    _look_again(square, sight, reports, swarm, land, range_square, j, i)
+                if abs(sight.until[j, i]) <= travelled and not _look_again(
+                    sight, speakers, swarm, land, range_square, j, i
+                ):
+                    square[j, i] = np.inf
 
 
 @kernel
-def _farthest(sight, reports, swarm, lanes, agents):
+def _farthest(sight, speakers, swarm, lanes, agents):
     """The longest way that anybody went since last time [m]; keeps where they are now."""
     longest = 0.0
     for j in range(agents):
-        dx, dy = reports.x[j] - sight.speaker_x[j], reports.y[j] - sight.speaker_y[j]
+        dx, dy = speakers.x[j] - sight.speaker_x[j], speakers.y[j] - sight.speaker_y[j]
         longest = max(longest, dx * dx + dy * dy)
-        sight.speaker_x[j], sight.speaker_y[j] = reports.x[j], reports.y[j]
+        sight.speaker_x[j], sight.speaker_y[j] = speakers.x[j], speakers.y[j]
     for i in range(lanes):
         dx, dy = swarm.x[i] - sight.listener_x[i], swarm.y[i] - sight.listener_y[i]
         longest = max(longest, dx * dx + dy * dy)
@@ -126,16 +135,15 @@ def _farthest(sight, reports, swarm, lanes, agents):
 
 
 @kernel
-def _look_again(square, sight, reports, swarm, land, range_square, j, i):
-    """Look whether listener i sees speaker j; a pair out of range is not looked at before it may be in range."""
+def _look_again(sight, speakers, swarm, land, range_square, j, i):
+    """Whether listener i sees speaker j; a pair out of range is not looked at before it may be in range."""
     travelled = sight.travelled[0]
-    dx = swarm.x[i] - reports.x[j]
-    dy = swarm.y[i] - reports.y[j]
-    square[j, i] = dx * dx + dy * dy
-    if square[j, i] > range_square:
-        sight.until[j, i] = travelled + 0.5 * (math.sqrt(square[j, i]) - math.sqrt(range_square))
-        return
-    seen, slack = look_along(land, swarm.x[i], swarm.y[i], reports.x[j], reports.y[j])
+    dx = swarm.x[i] - speakers.x[j]
+    dy = swarm.y[i] - speakers.y[j]
+    square = dx * dx + dy * dy
+    if square > range_square:
+        sight.until[j, i] = travelled + 0.5 * (math.sqrt(square) - math.sqrt(range_square))
+        return True
+    seen, slack = look_along(land, swarm.x[i], swarm.y[i], speakers.x[j], speakers.y[j])
     sight.until[j, i] = travelled + slack if seen else -(travelled + slack)
-    if not seen:
-        square[j, i] = np.inf
+    return seen
