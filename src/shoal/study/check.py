@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from shoal.scenario.assumptions import assumptions
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
 from shoal.scenario.on_track import open_tracks
@@ -23,4 +24,4 @@ def check(scenario: Source, **changes: Any) -> list[str]:
     """
     known = load(scenario, **changes)
     crew_of(known)
-    return [note for track in open_tracks(known) for note in track.notes]
+    return [*assumptions(known), *(note for track in open_tracks(known) for note in track.notes)]

@@ -14,6 +14,7 @@ class World(NamedTuple):
     imperfect : sensors miss targets or report false ones
     mortal : agents are lost or join during the run
     disturbed : there are disturbances; it is imperfect and mortal then, too
+    inexact : agents do not know quite where they are; powered : they have batteries
     flowing : there are currents or wind; coastal : there is land, or a limit to where agents may go
     target_radius : of the smallest target
     """
@@ -31,6 +32,8 @@ class World(NamedTuple):
     imperfect: bool
     mortal: bool
     disturbed: bool
+    inexact: bool
+    powered: bool
     flowing: bool
     coastal: bool
     target_radius: float
