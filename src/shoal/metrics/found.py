@@ -2,16 +2,17 @@
 
 from typing import Any
 
+import numpy as np
+
 from shoal.core.agents import Floats
 from shoal.metrics.contract import Facts, Measurement, Metric
-from shoal.metrics.shares import share
 
 
 def times_to_find(tally: Any, facts: Facts) -> Floats:
     """How long each target was there until it was found first [s], (T,); inf if it never was."""
     before, there = tally.undetected.sum(axis=0), tally.target_steps.sum(axis=0)
     times: Floats = before * facts.time_step
-    times[~(before < there)] = float("inf")
+    times[~(before < there)] = np.inf
     return times
 
 
@@ -22,7 +23,7 @@ MEASUREMENT = Measurement(
             "found",
             "1",
             "share of the targets that were detected at all",
-            lambda t, f: share(times_to_find(t, f) < float("inf"), t.target_steps.sum(axis=0) >= 0),
+            lambda t, f: float(np.isfinite(times_to_find(t, f)).mean()),
             better="higher",
             once=True,
             high=1.0,
