@@ -15,7 +15,7 @@ SOURCE = Path(shoal.__file__).parent
 (TABLE,) = re.findall(r"\| --- \| --- \|\n(.*)", (ROOT / "docs/glossary.md").read_text(encoding="utf-8"), re.DOTALL)
 TERMS = re.findall(r"^\| ([^|]+) \|", TABLE, re.MULTILINE)
 DICTIONARY = """
-actor adaptive add address any around array arrived assembled asset atomic bar bound box build cannot carry change
+actor adaptive add address any around array arrived assembled asset assumption atomic bar bound box build cannot carry change
 chart check
 choice choose clean cli client column command compare compared compiled compiler compiling console content
 core count crash csv data dataframe dataset declared difference disc dispatch dive doc drag drawing duration each edit

@@ -33,7 +33,8 @@ class TestLora:
 @pytest.mark.parametrize("name", RADIOS)
 def test_more_bytes_never_take_less_time(name):
     times = [RADIOS[name].time_on_air(size) for size in range(1, 600)]
-    assert times[0] > 0 and times == sorted(times)
+    assert times[0] > 0
+    assert times == sorted(times)
 
 
 class TestDuty:

@@ -24,7 +24,7 @@ from shoal.metrics.summary import METRICS, Bounds, batch_values, bounds_of, eval
 from shoal.metrics.tally import Tally
 from shoal.metrics.velocity_fluctuation import fleet_fluctuation
 from shoal.record.roster import Roster
-from shoal.record.search import FoundBy, TimeToFind, found_by, time_to_find
+from shoal.record.search import FoundShares, SearchTime, found_by, time_to_find
 from shoal.record.statistics import FEWEST, Estimate, all_alike, estimate
 from shoal.record.trajectory import Trajectory
 from shoal.record.words import interval_text, mean_text
@@ -115,7 +115,7 @@ class Record:
             if (several or not each.several_targets) and not (each.asked and np.isnan(self.estimate(name).mean))
         ]
 
-    def found_by(self, times: npt.ArrayLike, target: int | None = None) -> FoundBy:
+    def found_by(self, times: npt.ArrayLike, target: int | None = None) -> FoundShares:
         """Chance that a target is found by a time [s], with 95 % intervals: the share of runs in which it was.
 
         >>> shoal.simulate("oceans2020", runs=50, steps=300).found_by([5, 10, 30]).share
@@ -131,7 +131,7 @@ class Record:
         """
         return found_by(self._times_to_find(target), times, self.scenario.steps * self.facts.time_step)
 
-    def time_to_find(self, target: int | None = None) -> TimeToFind:
+    def time_to_find(self, target: int | None = None) -> SearchTime:
         """Median time until a target is found [s], with a 95 % interval and the number of runs in which it never was.
 
         Parameters

@@ -11,7 +11,7 @@ _Z = 1.959964  # 97.5 % quantile of the normal distribution
 Floats = npt.NDArray[np.float64]
 
 
-class FoundBy(NamedTuple):
+class FoundShares(NamedTuple):
     """The share of `runs` in which a target was found by each time [s], and its 95 % interval, (K,) each.
 
     NaN after the end of the runs: nobody knows.
@@ -24,7 +24,7 @@ class FoundBy(NamedTuple):
     runs: int
 
 
-class TimeToFind(NamedTuple):
+class SearchTime(NamedTuple):
     """Median time until a target is found [s], and its 95 % interval; inf: longer than the runs.
 
     The interval is None where there are too few runs for one (5 or less). `not_found`: of how many of the `runs`.
@@ -36,7 +36,7 @@ class TimeToFind(NamedTuple):
     runs: int
 
 
-def found_by(times_to_find: npt.ArrayLike, times: npt.ArrayLike, end: float) -> FoundBy:
+def found_by(times_to_find: npt.ArrayLike, times: npt.ArrayLike, end: float) -> FoundShares:
     """Return the share of runs that found a target by each of `times`, (K,) [s].
 
     The interval is Wilson's, Journal of the American Statistical Association 22, 1927: it holds near 0 and 1, too.
@@ -50,10 +50,10 @@ def found_by(times_to_find: npt.ArrayLike, times: npt.ArrayLike, end: float) -> 
     half = _Z / (1 + _Z**2 / took.size) * np.sqrt(share * (1 - share) / took.size + (_Z / (2 * took.size)) ** 2)
     known = np.where((at <= end * (1 + 1e-9)), 1.0, np.nan)
     low, high = np.maximum(middle - half, 0.0), np.minimum(middle + half, 1.0)
-    return FoundBy(at, share * known, low * known, high * known, took.size)
+    return FoundShares(at, share * known, low * known, high * known, took.size)
 
 
-def time_to_find(times_to_find: npt.ArrayLike) -> TimeToFind:
+def time_to_find(times_to_find: npt.ArrayLike) -> SearchTime:
     """Return the median of times, of which those of runs that found nothing are longer than all others.
 
     All runs are equally long, so that the median of all is where the curve of Kaplan and Meier falls to a half. The
@@ -67,7 +67,7 @@ def time_to_find(times_to_find: npt.ArrayLike) -> TimeToFind:
     lower = took[(count - 1) // 2]
     upper = took[count // 2]
     rank = _rank(count)
-    return TimeToFind(
+    return SearchTime(
         median=float(lower if lower == upper else (lower + upper) / 2),
         ci95=None if rank is None else (float(took[rank]), float(took[count - 1 - rank])),
         not_found=int(np.isinf(took).sum()),
