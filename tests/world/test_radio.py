@@ -8,16 +8,18 @@ from hypothesis import strategies as st
 from scenarios import fleets, scenario
 from shoal.core.agents import NEVER, new_swarm
 from shoal.core.draws import split
+from shoal.metrics.summary import evaluate
+from shoal.run.facts import facts_of
 from shoal.run.simulation import Simulation
 from shoal.scenario.load import read_table, scenario_from
 from shoal.world.neighbors import link_nearest, measure_distances, new_links, settle_ties
-from shoal.world.radio import begin_degree, limit_links, lose_reports, new_radio, said, send
+from shoal.world.radio import begin_degree, limit_links, lose_reports, new_radio, said, send, speaks, spoken
 
 ORDERS = ["synchronous", "sequential"]
 
 
-def radio_of(lanes, reach=np.inf, delay=0, loss=0.0, degree=None):
-    return new_radio(lanes, (), limited=True, reach=reach, delay=delay, loss=loss, degree=degree)
+def radio_of(lanes, reach=np.inf, delay=0, loss=0.0, degree=None, interval=1):
+    return new_radio(lanes, (), limited=True, reach=reach, delay=delay, loss=loss, degree=degree, interval=interval)
 
 
 def swarm_at(x, y, neighbors):
@@ -33,7 +35,7 @@ def links_of(swarm, radio, number=10):
     links = new_links(n, lanes)
     reports = said(radio, swarm, number)
     measure_distances(links, reports.x, reports.y, swarm.x, swarm.y, 0, n)
-    limit_links(links, swarm, radio, 0, n, number)
+    limit_links(links, swarm, radio, 0, n, number, radio.range_square)
     link_nearest(links, links.wanted, n)
     links.heard[:] = (links.square <= links.reach).sum(axis=0)
     settle_ties(links, links.wanted, n)
@@ -225,6 +227,57 @@ class TestDelay:
                 arrived = simulation.radio.told[(number + 1) % 7]
                 assert (arrived == told[number - 6]).all()
         assert (told[20] != told[14]).any()
+
+
+class TestInterval:
+    """Agents speak every so many steps; in between, what they said last is heard."""
+
+    @pytest.mark.parametrize("delay", [0, 1, 3, 4, 9])
+    def test_what_is_heard_is_the_last_that_arrived(self, delay):
+        swarm, radio = swarm_at([0.0, 1.0], [0.0, 0.0], 1), radio_of(8, delay=delay, interval=4)
+        for number in range(40):
+            swarm.x[0] = 10.0 * number
+            if speaks(radio, number):
+                send(radio, swarm, number)
+            if number >= delay:
+                last = 4 * ((number - delay) // 4)
+                assert spoken(radio, number) == last
+                assert said(radio, swarm, number).x[0] == 10.0 * last
+
+    def test_of_a_step_is_none(self):
+        assert not any(speaks(radio_of(8), number) for number in range(5))
+        assert [spoken(radio_of(8, delay=2), number) for number in (2, 3, 4)] == [0, 1, 2]
+
+    def test_who_joins_is_heard_from_its_first_report_on_and_who_leaves_until_its_next_is_due(self):
+        swarm, radio = swarm_at([0.0, 1.0, 2.0], [0.0] * 3, 2), radio_of(8, interval=4)
+        swarm.joins[0], swarm.leaves[1] = 5, 6
+        for number in range(12):
+            if number % 4 == 0:
+                send(radio, swarm, number)
+            heard = links_of(swarm, radio, number)[:, 2]
+            assert heard[:2].tolist() == [number >= 8, number < 8]
+
+    def test_messages_follow_the_interval_and_not_the_step(self):
+        for time_step in (0.1, 0.5):
+            changes = {"network.interval": 2.0, "time_step": time_step}
+            simulation = Simulation(scenario("oceans2020", changes))
+            simulation.advance(round(10 / time_step))
+            assert evaluate("messages", simulation.tally, facts_of(simulation.scenario))[0] == pytest.approx(20 / 2.0)
+
+    def test_a_lost_report_is_missed_until_the_next(self):
+        """One draw per report: for as long as a report stands, a link of two that stay is there or not."""
+        changes = {"network.loss": 0.5, "network.interval": 1.0, "network.neighbors": "all", "strategy": "lattice"}
+        links = Simulation(scenario("oceans2020", changes)).advance(40, every=1).links
+        same = [(links[number] == links[number - 1]).all() for number in range(1, 40)]
+        assert [number for number, alike in enumerate(same, 1) if not alike] == [10, 20, 30]
+
+    @pytest.mark.parametrize("order", ORDERS)
+    def test_a_look_is_what_the_step_will_hear(self, order):
+        changes = {"network.interval": 0.5, "network.neighbors": 3, "motion.update_order": order}
+        simulation = Simulation(scenario("oceans2020", changes))
+        for _ in range(7):
+            seen = simulation.look().links[0, 0]  # of the agent that decides first in both orders
+            assert (simulation.advance(1, every=1).links[0, 0] == seen).all()
 
 
 class TestTruth:

@@ -6,6 +6,7 @@ import pytest
 from coasting import coasting
 from scenarios import fleets, scenario
 from shoal.run.simulation import Simulation
+from shoal.world.sensing import glimpsed
 
 STAY = [(0.0, 0.0)] * 3
 PLACES = [(0.0, 0.0), (9.0, 9.0), (9.0, -9.0)]
@@ -120,3 +121,35 @@ class TestFalseAlarms:
             now.targets["present"] = 0
         simulation.advance(5)
         assert simulation.swarm.on_target[:3].all()
+
+
+class TestInverseCube:
+    """Koopman's law: the rate of detection falls with the cube of the range."""
+
+    RATE = np.log(2) * 1.5**3 / 2.0  # half of all targets at 1.5 m, in 2 s
+
+    def test_the_chance_in_a_time_is_the_same_however_it_is_cut(self):
+        whole = glimpsed(1.2, self.RATE, 1.0)
+        for parts in (2, 10, 1000):
+            assert 1 - (1 - glimpsed(1.2, self.RATE, 1.0 / parts)) ** parts == pytest.approx(whole, rel=1e-9)
+
+    def test_is_a_half_at_the_radius_in_the_time(self):
+        assert glimpsed(1.5, self.RATE, 2.0) == pytest.approx(0.5)
+        assert glimpsed(3.0, self.RATE, 2.0) == pytest.approx(1 - 0.5 ** (1 / 8))
+        assert glimpsed(0.0, self.RATE, 1e-9) == 1.0
+
+    @pytest.mark.parametrize("across", [2.0, 5.0])
+    def test_a_target_that_passes_is_found_with_the_chance_of_the_lateral_range_curve(self, across):
+        """1 - exp(-2 m / (v x^2)), the product over the steps of a straight passage."""
+        speed, step = 3.0, 0.01
+        along = np.arange(-300.0, 300.0, speed * step)
+        missed = np.prod([1 - glimpsed(np.hypot(across, each), self.RATE, step) for each in along])
+        assert 1 - missed == pytest.approx(1 - np.exp(-2 * self.RATE / (speed * across**2)), rel=1e-3)
+
+    def test_an_agent_that_stays_detects_at_its_rate(self):
+        places = [(2.5, 0.0), (9.0, 9.0)]
+        changes = {"fleets.0.sensor": "inverse-cube", "fleets.0.sensor_radius": 1.5, "fleets.0.sensor_time": 2.0}
+        simulation = coasting(places, STAY[:2], steps=5000, **changes)
+        frames = simulation.advance(5000, every=1)
+        chance = -np.expm1(-self.RATE * 0.1 / 1.5**3)  # of the rim, a radius of 1 m nearer
+        assert within(frames.on_target[:, 0].mean(), 5000, chance)

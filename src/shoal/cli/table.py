@@ -1,5 +1,6 @@
 """A record as a table that fits a terminal."""
 
+import math
 import textwrap
 from typing import Any
 
@@ -14,7 +15,7 @@ from shoal.record.words import interval_text, mean_text
 from shoal.scenario.choices import degree_text, speed_of, strategy_text
 from shoal.scenario.schema import Scenario
 
-_OF_FLEETS = ("xi_raw", "stationary", "speed", "power")
+_OF_FLEETS = ("xi_raw", "stationary", "speed", "power", "energy", "charge")
 _OF_TARGETS = ("time_on_target", "first_detection", "reacquisition")
 
 
@@ -42,9 +43,8 @@ def print_record(record: Record) -> None:
     for title, justify in (("", "left"), ("mean", "right"), ("95 % interval", "right"), ("unit", "left")):
         width = None if title else 28  # of labels: long names of fleets are cut, not numbers
         table.add_column(title, justify=justify, no_wrap=True, max_width=width)  # type: ignore[arg-type]
-    for name, metric in METRICS.items():
-        if len(scenario.targets) > 1 or not metric.several_targets:
-            table.add_row(metric.words, *_cells(record.estimate(name)), _unit(metric.unit))
+    for name in record.listed():
+        table.add_row(METRICS[name].words, *_cells(record.estimate(name)), _unit(METRICS[name].unit))
     _add_parts(table, record)
     console.print(table)
     console.print("phi histogram, agents per step from -1 (away) to +1 (toward):")
@@ -64,6 +64,8 @@ def _add_parts(table: Table, record: Record) -> None:
     for fleet in fleets:
         table.add_row(f"fleet {plain(fleet)}")
         for name, values in by_fleet.items():
+            if METRICS[name].asked and math.isnan(values[fleet].mean):
+                continue
             table.add_row(f"  {METRICS[name].words}", *_cells(values[fleet]), _unit(METRICS[name].unit))
     targets = record.target_estimates()
     for number, target in enumerate(targets if len(targets) > 1 else [], 1):

@@ -28,6 +28,8 @@ class Bodies(NamedTuple):
     alive : 1.0, or 0.0 if lost or not yet joined; joins, leaves : it is present in steps [joins, leaves)
     neighbors : k of each agent; contact : share of recent steps with a leader, by which k may adapt
     drift_x, drift_y : what nature added to its velocity in the last step [m/s]; aground : whether land stopped it then
+    fix_x, fix_y : where it believes to be; the arrays x, y themselves where everybody knows
+    error_x, error_y : how far that is off [m]; spent : taken from its battery so far [J]
     memory, told : (L, fields) what agents remember, and what of it they tell; the strategy sees them as `Memories`
     """
 
@@ -47,6 +49,11 @@ class Bodies(NamedTuple):
     drift_x: Floats
     drift_y: Floats
     aground: npt.NDArray[np.bool_]
+    fix_x: Floats
+    fix_y: Floats
+    error_x: Floats
+    error_y: Floats
+    spent: Floats
     memory: Floats
     told: Floats
 
@@ -56,6 +63,11 @@ class Makes(NamedTuple):
 
     max_speed [m/s], sensor_radius [m]
     detection, false_alarm : chance per step to notice a target within reach, and to report an absent one
+    horizon : how far the sensor sees at all [m]; glimpse : its rate of detection times the cube of the range [m^3/s], 0
+        where every range within is alike
+    position_error : standard deviation of each coordinate [m]; position_memory : share of an error left a step later
+    capacity : of the battery [J], inf for none; hotel [W], drag [W/(m/s)^3] : what it draws, see world/energy.py
+    curve : (F, 2, P) speeds [m/s] and powers [W] of each fleet's propulsion besides
     max_acceleration [m/s^2], max_turn_rate [rad/s] : inf for none
     share_end : its part of the swarm's summed top speeds ends here, see `Briefing`; station_x, station_y : see there
     leeway : (L, 4) how the wind moves it, fields of world/sea/sea.py's Leeway
@@ -64,8 +76,16 @@ class Makes(NamedTuple):
 
     max_speed: Floats
     sensor_radius: Floats
+    horizon: Floats
+    glimpse: Floats
     detection: Floats
     false_alarm: Floats
+    position_error: Floats
+    position_memory: Floats
+    capacity: Floats
+    hotel: Floats
+    drag: Floats
+    curve: Floats
     max_acceleration: Floats
     max_turn_rate: Floats
     share_end: Floats
@@ -114,10 +134,13 @@ def width(fields: tuple[str, ...]) -> int:
     return len(fields) or 1
 
 
-def new_swarm(counts: list[int], fields: tuple[str, ...], told: tuple[str, ...] = ()) -> Any:
+def new_swarm(
+    counts: list[int], fields: tuple[str, ...], told: tuple[str, ...] = (), *, exact: bool = True, points: int = 1
+) -> Any:
     """Return a swarm at rest at the origin; padding lanes lie far away, each at a place of its own.
 
     fields : of the memory; the first of them are `told`
+    exact : everybody knows where it is; points : how many the longest curve of a fleet's power has
     """
     agents = sum(counts)
     lanes = -(-agents // LANE_BLOCK) * LANE_BLOCK
@@ -127,6 +150,7 @@ def new_swarm(counts: list[int], fields: tuple[str, ...], told: tuple[str, ...] 
     x[agents:] = 1e15 * np.arange(1, lanes - agents + 1)
     y = aligned_zeros(lanes)
     y[:] = x
+    sensor_radius = aligned_zeros(lanes)
     fleet = np.zeros(lanes, np.int64)
     fleet[:agents] = np.repeat(np.arange(len(counts)), counts)
     alive = aligned_zeros(lanes)
@@ -142,9 +166,17 @@ def new_swarm(counts: list[int], fields: tuple[str, ...], told: tuple[str, ...] 
         engaged=np.zeros(lanes, np.bool_),
         alive=alive,
         max_speed=np.ones(lanes),
-        sensor_radius=aligned_zeros(lanes),
+        sensor_radius=sensor_radius,
+        horizon=sensor_radius,
+        glimpse=np.zeros(lanes),
         detection=np.ones(lanes),
         false_alarm=np.zeros(lanes),
+        position_error=np.zeros(lanes),
+        position_memory=np.zeros(lanes),
+        capacity=np.full(lanes, np.inf),
+        hotel=np.zeros(lanes),
+        drag=np.zeros(lanes),
+        curve=np.zeros((len(counts), 2, points)),
         max_acceleration=np.full(lanes, np.inf),
         max_turn_rate=np.full(lanes, np.inf),
         joins=np.zeros(lanes, np.int64),
@@ -154,6 +186,11 @@ def new_swarm(counts: list[int], fields: tuple[str, ...], told: tuple[str, ...] 
         drift_x=np.zeros(lanes),
         drift_y=np.zeros(lanes),
         aground=np.zeros(lanes, np.bool_),
+        fix_x=x if exact else x.copy(),
+        fix_y=y if exact else y.copy(),
+        error_x=np.zeros(lanes),
+        error_y=np.zeros(lanes),
+        spent=np.zeros(lanes),
         share_end=np.zeros(lanes),
         station_x=np.zeros(lanes),
         station_y=np.zeros(lanes),

@@ -15,6 +15,8 @@ _TO_SI: dict[str, dict[str, float]] = {
     "m/s^2": {"m/s^2": 1.0, "m/s2": 1.0, "m/s/s": 1.0, "kn/s": _KNOT, "km/h/s": 1.0 / 3.6},
     "s": {"s": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0},
     "kg": {"kg": 1.0, "t": 1000.0},
+    "J": {"J": 1.0, "kJ": 1e3, "MJ": 1e6, "Wh": 3600.0, "kWh": 3.6e6},
+    "W": {"W": 1.0, "mW": 1e-3, "kW": 1e3},
     "deg": {"deg": 1.0, "rad": 57.29577951308232},
     "deg/s": {"deg/s": 1.0, "rad/s": 57.29577951308232, "deg/min": 1.0 / 60.0},
     "1": {"%": 0.01},
@@ -142,6 +144,8 @@ MetersPerSecond = Annotated[float, Unit("m/s")]
 MetersPerSecondSquared = Annotated[float, Unit("m/s^2")]
 Seconds = Annotated[float, Unit("s")]
 Kilograms = Annotated[float, Unit("kg")]
+Joules = Annotated[float, Unit("J")]
+Watts = Annotated[float, Unit("W")]
 Degrees = Annotated[float, Unit("deg")]
 DegreesPerSecond = Annotated[float, Unit("deg/s")]
 Share = Annotated[float, Unit("1")]

@@ -18,6 +18,7 @@ from shoal.engine.measure import measure_after_move, measure_before_move, measur
 from shoal.engine.stage import FRAMES, NATURE, RADIO, RUN, SCRATCH, SEA, SWARM, TALLY, TARGETS, TRACKS, WORLD, Addresses
 from shoal.metrics.contract import Step
 from shoal.world.disturbances.dispatch import disturb
+from shoal.world.energy import consume
 from shoal.world.motion import (
     add_drift,
     limit_maneuver,
@@ -30,8 +31,19 @@ from shoal.world.motion import (
     slow_down,
 )
 from shoal.world.neighbors import count_heard, link_nearest, measure_distances, rank_heard, settle_ties
+from shoal.world.position import age_errors, locate
 from shoal.world.presence import update_presence
-from shoal.world.radio import adapt_degree, deafen, limit_links, lose_reports, said, send
+from shoal.world.radio import (
+    adapt_degree,
+    deafen,
+    hide_far_away,
+    limit_links,
+    lose_reports,
+    said,
+    send,
+    speaks,
+    spoken,
+)
 from shoal.world.sea.sea import carry, span
 from shoal.world.sea.sight import Places, hide_behind_land
 from shoal.world.sensing import sense
@@ -57,7 +69,9 @@ def sense_all(stage, number, first, batch, key):
         update_presence(swarm, world, number)
     sense(swarm, targets, nature.effects, part(stage, SEA), world, key)
     measure_before_move(tally, Step(number, batch, 0), world, swarm, targets, scratch)
-    if radio.delay > 0:
+    if world.inexact:
+        locate(swarm, 0, world.agents)
+    if speaks(radio, number):
         send(radio, swarm, number)
     return 0
 
@@ -86,14 +100,20 @@ def find_links(scratch, world, swarm, radio, effects, sea, number, first):
     links = scratch.links
     last = first + links.reach.size
     reports = said(radio, swarm, number)
-    measure_distances(links, reports.x, reports.y, swarm.x[first:last], swarm.y[first:last], first, world.agents)
+    measure_distances(
+        links, reports.x, reports.y, swarm.fix_x[first:last], swarm.fix_y[first:last], first, world.agents
+    )
     if world.disturbed:
         deafen(links, effects, first, world.agents)
+    range_square, there_x, there_y = radio.range_square, reports.x, reports.y
+    if world.inexact:
+        hide_far_away(links, swarm, range_square, first, world.agents)
+        range_square, there_x, there_y = np.inf, swarm.x, swarm.y
     if world.coastal:
-        speakers = Places(reports.x, reports.y)
-        hide_behind_land(links, scratch.sight, speakers, swarm, sea.land, radio.range_square, first, world.agents)
+        speakers = Places(there_x, there_y)
+        hide_behind_land(links, scratch.sight, speakers, swarm, sea.land, range_square, first, world.agents)
     if radio.limited:
-        limit_links(links, swarm, radio, first, world.agents, number)
+        limit_links(links, swarm, radio, first, world.agents, number, range_square)
         link_nearest(links, links.wanted, world.agents)
     else:
         link_nearest(links, swarm.neighbors[first:last], world.agents)
@@ -107,17 +127,18 @@ def settle(stage, number, first, batch, key):
     swarm = part(stage, SWARM)
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
-    return 1 if settle_links(scratch.links, world, swarm, radio, first, key) else 0
+    return 1 if settle_links(scratch.links, world, swarm, radio, part(stage, RUN), number, first) else 0
 
 
 @kernel
-def settle_links(links, world, swarm, radio, first, key):
+def settle_links(links, world, swarm, radio, run, number, first):
     """Settle ties, by how many are heard, and lose reports; return whether links changed."""
     if radio.limited:
         changed = settle_ties(links, links.wanted, world.agents)
     else:
         changed = settle_ties(links, swarm.neighbors[first : first + links.reach.size], world.agents)
     if radio.loss > 0.0:
+        key = split(split(split(run.seed, 0), run.run), spoken(radio, number) + radio.delay)
         lose_reports(links, radio, key, first, world.agents)
         changed = True
     if changed:
@@ -154,18 +175,29 @@ def move_agents(stage, number, first, batch, key):
     effects = part(stage, NATURE).effects
     if world.disturbed:
         slow_down(command_x, command_y, swarm.max_speed[first:last], effects[first:last].speed)
+    if world.powered:
+        consume(swarm, world, number, first, there)
     if world.flowing or world.coastal:
         go_to_sea(swarm, effects, part(stage, SEA), scratch, world, number, first, there)
-        return 0
+    else:
+        go(swarm, effects, world, first, last)
+    if world.inexact:
+        locate(swarm, first, there)
+    return 0
+
+
+@kernel
+def go(swarm, effects, world, first, last):
+    """Move agents first..last of a sea without currents, wind or land, in place."""
+    command_x, command_y = swarm.command_x[first:last], swarm.command_y[first:last]
     x, y, vx, vy = swarm.x[first:last], swarm.y[first:last], swarm.vx[first:last], swarm.vy[first:last]
     if world.disturbed:
         move_adrift(x, vx, command_x, effects[first:last].drift_x, world.clamp_x, world.time_step)
         move_adrift(y, vy, command_y, effects[first:last].drift_y, world.clamp_y, world.time_step)
-        note_drift(swarm, effects, world.time_step, first, there)
+        note_drift(swarm, effects, world.time_step, first, min(last, world.agents))
     else:
         move(x, vx, command_x, world.clamp_x, world.time_step)
         move(y, vy, command_y, world.clamp_y, world.time_step)
-    return 0
 
 
 @kernel
@@ -198,9 +230,11 @@ def measure(stage, number, first, batch, key):
 
 @phase
 def move_targets(stage, number, first, batch, key):
-    """Targets move by their rules, or as they were recorded."""
+    """Targets move by their rules, or as they were recorded; the errors of positions grow as old as the coming step."""
     world = part(stage, WORLD)
     swarm = part(stage, SWARM)
+    if world.inexact:
+        age_errors(swarm, world, key)
     targets = part(stage, TARGETS)
     tracks = part(stage, TRACKS)
     sea = part(stage, SEA)
@@ -225,6 +259,8 @@ def come_to_rest(stage, number, first, batch, key):
     if world.mortal:
         update_presence(swarm, world, number)
     sense(swarm, targets, nature.effects, part(stage, SEA), world, key)
+    if world.inexact:
+        locate(swarm, 0, world.agents)
     if nature.clock[1] != 0:
         return SPOILED_DRIFT
     for target in targets:
@@ -253,7 +289,7 @@ def look_at_links(stage, number, first, frame, key):
     links = scratch.links
     find_links(scratch, world, swarm, radio, part(stage, NATURE).effects, part(stage, SEA), number, first)
     count_heard(links, world.agents)
-    settle_links(links, world, swarm, radio, first, key)
+    settle_links(links, world, swarm, radio, part(stage, RUN), number, first)
     keep_links(frames, frame, links, first, world.agents)
     return 0
 

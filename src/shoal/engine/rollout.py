@@ -12,6 +12,7 @@ from shoal.engine.stage import FRAMES, PHASES, RADIO, RUN, SCRATCH, SEA, SWARM, 
 from shoal.engine.step import Now, Parts, step, tell
 from shoal.strategies import contract
 from shoal.world.placement import draw_sides, place
+from shoal.world.position import begin_errors, locate
 from shoal.world.presence import draw_lifetimes, draw_losses, update_presence
 from shoal.world.radio import begin_degree
 from shoal.world.targets.dispatch import begin_target
@@ -39,6 +40,9 @@ def set_out(stage, places, lifetimes, losses):
     for number, fleet, count in losses:
         draw_losses(swarm, world, number, fleet, count, run_key)
     update_presence(swarm, world, 0)
+    if world.inexact:
+        begin_errors(swarm, world, start_key)
+        locate(swarm, 0, world.agents)
     if radio.adaptive:
         begin_degree(swarm, radio, world.agents)
     for j in range(targets.size):

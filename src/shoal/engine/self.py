@@ -22,8 +22,8 @@ def own(world, swarm, targets, params, number, i):
     )
     return Own(
         i,
-        swarm.x[i],
-        swarm.y[i],
+        swarm.fix_x[i],
+        swarm.fix_y[i],
         swarm.vx[i],
         swarm.vy[i],
         swarm.on_target[i],

@@ -14,7 +14,7 @@ from shoal.engine.listen import Arrived, Listeners, choose_leaders, sum_influenc
 from shoal.engine.self import own
 from shoal.engine.stage import Addresses, Scratch
 from shoal.strategies import contract
-from shoal.world.radio import said
+from shoal.world.radio import row, said, spoken
 
 
 class Parts(NamedTuple):
@@ -45,8 +45,9 @@ def step(parts, memories, params, now):
     run(phases.sense, parts, now, 0)  # f_i of all agents (Eq. 1), and Eq. 5 of the velocities that they have
     if now.frame >= 0:
         run(phases.record_frame, parts, now, now.frame)
-    told = memories.told if radio.delay == 0 else memories.arrived[(now.number + 1) % (radio.delay + 1)]
-    arrived = Arrived(said(radio, parts.swarm, now.number), told, (now.number - radio.delay) * world.time_step)
+    then = spoken(radio, now.number)
+    told = memories.told if then == now.number else memories.arrived[row(radio, then)]
+    arrived = Arrived(said(radio, parts.swarm, now.number), told, then * world.time_step)
     together = parts.scratch.leader.size
     for first in range(0, world.agents, together):  # in one go; one after the other in the sequential order
         run(phases.link, parts, now, first)  # N_i: the k nearest others
@@ -72,8 +73,8 @@ def listen(parts, arrived, params, now, first):
     last = first + scratch.leader.size
     listeners = Listeners(
         first,
-        swarm.x[first:last],
-        swarm.y[first:last],
+        swarm.fix_x[first:last],
+        swarm.fix_y[first:last],
         swarm.vx[first:last],
         swarm.vy[first:last],
         swarm.on_target[first:last],

@@ -46,6 +46,8 @@ class Facts(NamedTuple):
 
     fleets, counts, max_speeds : name, number of agents (those that join later too) and top speed [m/s] of each fleet
     unit [m] : one arena unit; time_step [s]; area [m^2]; report_bytes : size of one report [B]
+    interval [s] : from one report of an agent to its next, 0 for every step; airtime [s] : of a report, 0 if not known
+    capacities [J] : of a battery of each fleet, 0 for none; costs : of an agent of each fleet; empty if not known
     """
 
     fleets: tuple[str, ...]
@@ -55,6 +57,15 @@ class Facts(NamedTuple):
     time_step: float
     area: float = float("nan")
     report_bytes: int = REPORT_BYTES
+    interval: float = 0.0
+    airtime: float = 0.0
+    capacities: tuple[float, ...] = ()
+    costs: tuple[float, ...] = ()
+
+    @property
+    def report_interval(self) -> float:
+        """Time from one report of an agent to its next [s]."""
+        return self.interval or self.time_step
 
     @property
     def agents(self) -> int:
@@ -91,6 +102,7 @@ class Metric(NamedTuple):
     once : it happens once in a run, or the scenario decides it, so that batches of steps say nothing about its spread
     low, high : its bounds; those that a scenario decides have a name, see LIMITS
     several_targets : it says something only where there are several
+    asked : it has a value only where the scenario asks for it, and no place in tables of others
     package : the installed package that it is from, as errors call it; empty of built-in ones
     """
 
@@ -104,6 +116,7 @@ class Metric(NamedTuple):
     low: float = 0.0
     high: float | str = math.inf
     several_targets: bool = False
+    asked: bool = False
     package: str = ""
 
     @property

@@ -7,7 +7,7 @@ from shoal.metrics.shares import share
 
 @kernel
 def tally_messages(tally, step, world, swarm, targets, scratch):
-    """Count the reports that the block of agents which just listened heard."""
+    """Count the reports that the block of agents which just listened goes by: each stays for an interval of reports."""
     links = scratch.links
     reports = 0
     for i in range(min(links.heard.size, world.agents - step.first)):
@@ -17,21 +17,21 @@ def tally_messages(tally, step, world, swarm, targets, scratch):
 
 MEASUREMENT = Measurement(
     "messages",
-    sums=(Sum("heard", "reports", "received"),),
+    sums=(Sum("heard", "reports", "gone by, summed over steps"),),
     linked=tally_messages,
     metrics=(
         Metric(
             "messages",
             "1/s",
             "reports that an agent receives per second",
-            lambda t, f: share(t.heard, t.agent_steps) / f.time_step,
+            lambda t, f: share(t.heard, t.agent_steps) / f.report_interval,
             better="lower",
         ),
         Metric(
             "bandwidth",
             "B/s",
             "bytes of reports that an agent receives per second",
-            lambda t, f: share(t.heard, t.agent_steps) / f.time_step * f.report_bytes,
+            lambda t, f: share(t.heard, t.agent_steps) / f.report_interval * f.report_bytes,
             better="lower",
         ),
     ),

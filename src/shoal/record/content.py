@@ -17,6 +17,7 @@ FORMAT = 3  # 1 had no checksums; 2 had neither a roster nor whom agents heard
 
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
 _Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+_NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 _Whole = Annotated[int, Field(ge=0, lt=2**64)]
 
 
@@ -48,6 +49,10 @@ class _Facts(_Part):
     time_step: _Positive
     area: _Positive
     report_bytes: Annotated[int, Field(ge=REPORT_BYTES, lt=2**31)]
+    interval: _NotNegative = 0.0
+    airtime: _NotNegative = 0.0
+    capacities: list[_NotNegative] = []
+    costs: list[_NotNegative] = []
 
 
 class _Summary(_Part):

@@ -7,6 +7,7 @@ import numpy as np
 from shoal.core.errors import MissingExtraError, UnknownNameError
 from shoal.metrics.each_target import each_target
 from shoal.metrics.effort import fleet_power
+from shoal.metrics.energy import fleet_energy
 from shoal.metrics.heading_bearing import fleet_stationary
 from shoal.metrics.summary import METRICS
 from shoal.metrics.velocity_fluctuation import fleet_fluctuation
@@ -52,11 +53,13 @@ def _fleets(record: "Record") -> dict[str, Any]:
     rows = []
     for run, tally in enumerate(record.tallies):
         speed, power = fleet_power(tally, record.facts)
+        energy, charge = fleet_energy(tally, record.facts)
         of_metric = {
             "xi_raw": fleet_fluctuation(tally, record.facts),
             "stationary": fleet_stationary(tally, record.facts),
             "speed": speed,
             "power": power,
+            **({"energy": energy, "charge": charge} if any(record.facts.capacities) else {}),
         }
         for name, values in of_metric.items():
             for fleet, value in zip(record.facts.fleets, values, strict=True):

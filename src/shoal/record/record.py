@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from shoal.core.errors import UnknownNameError, no_attribute
+from shoal.core.errors import RecordError, UnknownNameError, no_attribute
 from shoal.core.sheet import Sheet
 from shoal.core.text import plain
 from shoal.metrics.contract import Facts, Metric
 from shoal.metrics.coverage import reachable
 from shoal.metrics.each_target import each_target, loss_lengths
 from shoal.metrics.effort import fleet_power
+from shoal.metrics.energy import fleet_energy
+from shoal.metrics.found import times_to_find
 from shoal.metrics.heading_bearing import fleet_stationary, phi_histogram
 from shoal.metrics.robustness import Robustness, robustness
 from shoal.metrics.shares import mean_max_speed
@@ -22,6 +24,7 @@ from shoal.metrics.summary import METRICS, Bounds, batch_values, bounds_of, eval
 from shoal.metrics.tally import Tally
 from shoal.metrics.velocity_fluctuation import fleet_fluctuation
 from shoal.record.roster import Roster
+from shoal.record.search import FoundShares, SearchTime, found_by, time_to_find
 from shoal.record.statistics import FEWEST, Estimate, all_alike, estimate
 from shoal.record.trajectory import Trajectory
 from shoal.record.words import interval_text, mean_text
@@ -32,7 +35,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-_OF_FLEETS = ("xi", "xi_raw", "stationary", "speed", "power")
+_OF_FLEETS = ("xi", "xi_raw", "stationary", "speed", "power", "energy", "charge")
 
 
 @dataclass(frozen=True, repr=False)
@@ -103,6 +106,53 @@ class Record:
                 found.append(metric)
         return found
 
+    def listed(self) -> list[str]:
+        """Metrics that say something of this scenario: what it has no target, battery or radio for is left out."""
+        several = len(self.scenario.targets) > 1
+        return [
+            name
+            for name, each in METRICS.items()
+            if (several or not each.several_targets) and not (each.asked and np.isnan(self.estimate(name).mean))
+        ]
+
+    def found_by(self, times: npt.ArrayLike, target: int | None = None) -> FoundShares:
+        """Chance that a target is found by a time [s], with 95 % intervals: the share of runs in which it was.
+
+        >>> shoal.simulate("oceans2020", runs=50, steps=300).found_by([5, 10, 30]).share
+
+        Parameters
+        ----------
+        times : [s] for which the target was there
+        target : number of the target; default: all of them are found
+
+        Raises
+        ------
+        RecordError : no such target
+        """
+        return found_by(self._times_to_find(target), times, self.scenario.steps * self.facts.time_step)
+
+    def time_to_find(self, target: int | None = None) -> SearchTime:
+        """Median time until a target is found [s], with a 95 % interval and the number of runs in which it never was.
+
+        Parameters
+        ----------
+        target : number of the target; default: all of them are found
+
+        Raises
+        ------
+        RecordError : no such target
+        """
+        return time_to_find(self._times_to_find(target))
+
+    def _times_to_find(self, target: int | None) -> npt.NDArray[np.float64]:
+        """Of each run, inf where it was not found, (R,)."""
+        times = np.array([times_to_find(tally, self.facts) for tally in self.tallies])
+        if target is None:
+            return np.asarray(times.max(axis=1))
+        if not isinstance(target, (int, np.integer)) or not 0 <= target < times.shape[1]:
+            raise RecordError("target", f"is {target!r}", f"name one from 0 to {times.shape[1] - 1}")
+        return np.asarray(times[:, target])
+
     def _batches(self, metric: str) -> npt.NDArray[np.float64] | None:
         """Values in the batches of a single run, of a metric that has any."""
         row = METRICS[metric]
@@ -115,7 +165,9 @@ class Record:
         return np.mean([phi_histogram(tally) for tally in self.tallies], axis=0)  # type: ignore[no-any-return]
 
     def fleet_estimate(self, metric: str) -> dict[str, Estimate]:
-        """`xi_raw` [m/s], `xi` (over the swarm's mean top speed), `stationary`, `speed` [m/s] or `power` of each fleet.
+        """`xi_raw` [m/s], `xi` (over the swarm's mean top speed), `stationary`, `speed` [m/s], `power` of each fleet.
+
+        Of fleets with batteries `energy` [Wh] and `charge`, too.
 
         Raises
         ------
@@ -129,12 +181,15 @@ class Record:
             "speed": lambda tally: fleet_power(tally, self.facts)[0],
             "power": lambda tally: fleet_power(tally, self.facts)[1],
             "stationary": lambda tally: fleet_stationary(tally, self.facts),
+            "energy": lambda tally: fleet_energy(tally, self.facts)[0],
+            "charge": lambda tally: fleet_energy(tally, self.facts)[1],
         }
         formula = formulas[metric]
         runs = np.array([formula(tally) for tally in self.tallies])
         found = {}
         for fleet, name in enumerate(self.facts.fleets):
-            alone = batch_values(partial(_of_fleet, formula, fleet), self.tallies[0]) if len(runs) == 1 else None
+            single = len(runs) == 1 and not METRICS[metric].once
+            alone = batch_values(partial(_of_fleet, formula, fleet), self.tallies[0]) if single else None
             found[name] = estimate(runs[:, fleet], alone, bounds_of(metric, agents=self.facts.counts[fleet]))
         return found
 
@@ -239,8 +294,7 @@ class Record:
 
     def _repr_html_(self) -> str:
         """The table of the run for a notebook: every metric with its interval."""
-        several = len(self.scenario.targets) > 1
-        known = {name: self.estimate(name) for name, each in METRICS.items() if several or not each.several_targets}
+        known = {name: self.estimate(name) for name in self.listed()}
         return Sheet(
             head=self._head(),
             titles=("metric", "mean", "95 % interval", "unit", ""),

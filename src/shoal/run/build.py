@@ -6,13 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from shoal.core.agents import new_swarm
+from shoal.core.agents import aligned_zeros, new_swarm
 from shoal.core.declared import Declared
 from shoal.core.errors import PluginError
 from shoal.engine.stage import new_nature
+from shoal.scenario.battery import drag_of
 from shoal.scenario.briefing import degrees, shares
 from shoal.scenario.crew import Crew
-from shoal.scenario.schema import Scenario
+from shoal.scenario.schema import Fleet, Scenario
 from shoal.scenario.targets import MovingTarget
 from shoal.scenario.windage import leeway
 from shoal.world.arena import World
@@ -42,9 +43,12 @@ def build_world(scenario: Scenario, sea: Sea) -> World:
         divide=scenario.motion.speed_rule == "divide",
         inertial=any(fleet.max_acceleration or fleet.max_turn_rate for fleet in fleets),
         imperfect=any(fleet.detection_probability < 1 or fleet.false_alarm_probability > 0 for fleet in fleets)
-        or bool(scenario.disturbances),
+        or bool(scenario.disturbances)
+        or any(fleet.sensor == "inverse-cube" for fleet in fleets),
         mortal=_is_mortal(scenario),
         disturbed=bool(scenario.disturbances),
+        inexact=_is_inexact(scenario),
+        powered=any(fleet.battery for fleet in fleets),
         flowing=sea.currents.kind != STILL or sea.wind.kind != STILL,
         windy=sea.wind.kind != STILL and any(fleet.windage for fleet in fleets),
         coastal=sea.shore.distance.size > 1,
@@ -57,24 +61,42 @@ def _is_mortal(scenario: Scenario) -> bool:
         scenario.losses
         or scenario.joins
         or scenario.disturbances
-        or any(fleet.mean_lifetime for fleet in scenario.fleets)
+        or any(fleet.mean_lifetime or fleet.battery for fleet in scenario.fleets)
     )
+
+
+def _is_inexact(scenario: Scenario) -> bool:
+    return any(fleet.position_error > 0 for fleet in scenario.fleets)
 
 
 def build_swarm(scenario: Scenario, crew: Crew) -> Any:
     """Agents in the order of the fleets, nowhere yet; those who join later are the last of their fleet."""
     agents, fleets, counts = scenario.agents, scenario.fleets, scenario.counts
-    swarm = new_swarm(counts, crew.memory, crew.told)
+    points = max(len(fleet.battery.curve) if fleet.battery and fleet.battery.curve else 1 for fleet in fleets)
+    swarm = new_swarm(counts, crew.memory, crew.told, exact=not _is_inexact(scenario), points=points)
 
     def fill(array: Any, values: list[Any]) -> None:
         array[:agents] = np.repeat(values, counts, axis=0)
 
     fill(swarm.max_speed, [fleet.max_speed for fleet in fleets])
     fill(swarm.sensor_radius, [fleet.sensor_radius for fleet in fleets])
+    if any(fleet.sensor == "inverse-cube" for fleet in fleets):
+        swarm = swarm._replace(horizon=aligned_zeros(swarm.x.size))
+        fill(swarm.horizon, [_horizon(fleet) for fleet in fleets])
+        fill(swarm.glimpse, [_glimpse(fleet) for fleet in fleets])
     fill(swarm.detection, [fleet.detection_probability for fleet in fleets])
     fill(swarm.false_alarm, [fleet.false_alarm_probability for fleet in fleets])
     fill(swarm.max_acceleration, [fleet.max_acceleration or math.inf for fleet in fleets])
     fill(swarm.max_turn_rate, [math.radians(fleet.max_turn_rate or math.inf) for fleet in fleets])
+    fill(swarm.position_error, [fleet.position_error for fleet in fleets])
+    fill(swarm.position_memory, [math.exp(-scenario.time_step / fleet.position_error_time) for fleet in fleets])
+    fill(swarm.capacity, [fleet.battery.capacity if fleet.battery else math.inf for fleet in fleets])
+    fill(swarm.hotel, [fleet.battery.hotel if fleet.battery else 0.0 for fleet in fleets])
+    fill(swarm.drag, [drag_of(fleet) for fleet in fleets])
+    for curve, make in zip(swarm.curve, fleets, strict=True):
+        if make.battery and make.battery.curve:
+            known = np.array(make.battery.curve).T
+            curve[:] = np.pad(known, ((0, 0), (0, points - known.shape[1])), mode="edge")
     fill(swarm.neighbors, degrees(scenario, crew))
     fill(swarm.leeway, [leeway(fleet.windage) for fleet in fleets])
     swarm.share_end[:agents] = shares(scenario)
@@ -88,16 +110,30 @@ def build_swarm(scenario: Scenario, crew: Crew) -> Any:
     return swarm
 
 
+def _horizon(fleet: Fleet) -> float:
+    return math.inf if fleet.sensor == "inverse-cube" else fleet.sensor_radius
+
+
+def _glimpse(fleet: Fleet) -> float:
+    """The m of `glimpsed` [m^3/s], such that at sensor_radius half of all targets are detected in sensor_time."""
+    return math.log(2.0) * fleet.sensor_radius**3 / fleet.sensor_time if fleet.sensor == "inverse-cube" else 0.0
+
+
 def build_radio(scenario: Scenario, crew: Crew, world: World, lanes: int) -> Any:
     """Limits of the network, and room for reports in flight. Strategies that hear all get k = N - 1 here, too."""
     network, adaptive = scenario.network, scenario.network.adaptive
     radio = new_radio(
         lanes,
         crew.told,
-        limited=network.range is not None or network.delay > 0 or world.mortal or world.coastal,
+        limited=network.range is not None
+        or network.delay > 0
+        or scenario.report_steps > 1
+        or world.mortal
+        or world.coastal,
         reach=network.range or math.inf,
         delay=network.delay,
         loss=network.loss,
+        interval=scenario.report_steps,
         degree=(adaptive.fewest, adaptive.most, adaptive.patience) if adaptive else None,
     )
     everybody = np.repeat([strategy.hears_all for strategy in crew.strategies], scenario.counts)

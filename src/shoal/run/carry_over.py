@@ -55,9 +55,13 @@ def carry_over(old: Simulation, scenario: Scenario, origin: npt.ArrayLike | None
 def _carry_bodies(old: Simulation, new: Simulation, now: State, here: Lanes, there: Lanes) -> None:
     """Everything of an agent's own but its memory; k only where it adapts, else it is what is chosen now."""
     chosen = now.swarm.neighbors.copy()
-    for mine, theirs in zip(now.swarm, old.moment.swarm, strict=True):
-        if mine.ndim == 1:  # memories have a column per field, and a rule of their own
-            mine[here] = theirs[there]
+    own = {"fix_x", "fix_y"} | (set() if old.world.inexact else {"error_x", "error_y"})
+    for name, theirs in old.moment.swarm._asdict().items():
+        if theirs.ndim == 1 and name not in own:  # memories have a column per field, and a rule of their own
+            getattr(now.swarm, name)[here] = theirs[there]
+    if new.world.inexact:
+        now.swarm.fix_x[:] = now.swarm.x + now.swarm.error_x
+        now.swarm.fix_y[:] = now.swarm.y + now.swarm.error_y
     adapts = old.radio.adaptive and new.radio.adaptive
     now.swarm.neighbors[:] = np.clip(now.swarm.neighbors, new.radio.fewest, new.radio.most) if adapts else chosen
 
@@ -90,6 +94,8 @@ def _carry_memory(old: Simulation, new: Simulation, now: State, here: Lanes, the
 def _carry_air(old: Simulation, new: Simulation, now: State, here: Lanes, there: Lanes) -> None:
     """Reports still in flight; where there are none, as if all had always said what they say now."""
     for name, said in now.air._asdict().items():
-        said[:] = getattr(now.swarm, name)
-        if old.radio.delay == new.radio.delay and (name != "told" or old.crew.told == new.crew.told):
+        said[:] = getattr(now.swarm, {"x": "fix_x", "y": "fix_y"}.get(name, name))
+        if (old.radio.delay, old.radio.interval) == (new.radio.delay, new.radio.interval) and (
+            name != "told" or old.crew.told == new.crew.told
+        ):
             said[:, here] = getattr(old.moment.air, name)[:, there]

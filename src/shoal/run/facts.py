@@ -4,16 +4,18 @@ from typing import Any
 
 import numpy as np
 
-from shoal.core.messages import REPORT_BYTES
 from shoal.metrics.contract import Facts
 from shoal.record.roster import Roster
-from shoal.scenario.crew import Crew, crew_of
+from shoal.scenario.assumptions import airtime, report_size
+from shoal.scenario.crew import Crew
 from shoal.scenario.schema import Scenario
 
 
 def facts_of(scenario: Scenario) -> Facts:
     """What metrics need to know of a scenario."""
     fleets = scenario.fleets
+    powered = any(fleet.battery for fleet in fleets)
+    priced = all(fleet.cost is not None for fleet in fleets)
     return Facts(
         fleets=tuple(fleet.name for fleet in fleets),
         counts=tuple(scenario.counts),
@@ -21,7 +23,11 @@ def facts_of(scenario: Scenario) -> Facts:
         unit=scenario.unit,
         time_step=scenario.time_step,
         area=scenario.area.width * scenario.area.height,
-        report_bytes=REPORT_BYTES + 8 * len(crew_of(scenario).told),
+        report_bytes=report_size(scenario),
+        interval=0.0 if scenario.report_steps == 1 else scenario.report_interval,
+        airtime=airtime(scenario),
+        capacities=tuple(fleet.battery.capacity if fleet.battery else 0.0 for fleet in fleets) if powered else (),
+        costs=tuple(fleet.cost for fleet in fleets if fleet.cost is not None) if priced else (),
     )
 
 

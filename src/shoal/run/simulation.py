@@ -25,6 +25,7 @@ from shoal.run.facts import roster_of
 from shoal.run.sea import build_sea
 from shoal.run.state import State, arrays_of, read_only, state_of
 from shoal.run.stations import stations
+from shoal.scenario.assumptions import assumptions
 from shoal.scenario.at_sea import open_sea
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
@@ -53,7 +54,7 @@ class Simulation:
     roster : what each agent was given: fleet, top speed, sensor, k, strategy, when it joins
     memories : read-only records of what agents remember, in the words of their strategy
     moment : all of the state, read-only; `edit` opens it for changes
-    notes : what was assumed or dropped in reading recorded tracks or a saved state
+    notes : what was assumed or dropped, in the scenario, in recorded tracks or in a saved state
 
     Raises
     ------
@@ -71,6 +72,7 @@ class Simulation:
         opened = open_sea(scenario)
         tracks = open_tracks(scenario)
         self.notes = [*(opened.notes if opened else ()), *(note for track in tracks for note in track.notes)]
+        self.notes += assumptions(scenario)
         self._sea = build_sea(scenario, opened)
         self.world = build_world(scenario, self._sea)
         self._swarm = build_swarm(scenario, self.crew)

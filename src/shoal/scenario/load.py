@@ -16,6 +16,7 @@ from shoal.core.declared import is_offered
 from shoal.core.errors import ScenarioError, StrategyError, did_you_mean
 from shoal.core.text import cut, quoted
 from shoal.scenario import disturbances, targets
+from shoal.scenario.battery import Battery
 from shoal.scenario.disturbances import DISTURBANCES
 from shoal.scenario.frozen import MOST_ENTRIES, plain
 from shoal.scenario.recorded import RecordedScenario, RecordedStrategy
@@ -346,6 +347,8 @@ def _known_fields(path: tuple[Any, ...], table: Mapping[str, Any]) -> list[str]:
     if path[0] in _DECLARED:
         kind: Any = _DECLARED[path[0]].get(str(_part_at(table, path[:2]).get("kind")))
         return list(kind.model_fields) if kind else ["kind"]
+    if path[0] == "fleets" and path[2:3] == ("battery",) and len(path) > 3:
+        return list(Battery.model_fields)
     if path[:2] == ("network", "adaptive") and len(path) > 2:
         return list(AdaptiveDegree.model_fields)
     if path[0] == "sea" and len(path) > 2:

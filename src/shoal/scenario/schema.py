@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, Self, cast
 
 from pydantic import AfterValidator, Field, model_validator
 
+from shoal.core.agents import NEVER
 from shoal.core.errors import ScenarioError, ShoalError, did_you_mean
 from shoal.core.text import hides, plain, quoted
 from shoal.core.units import (
@@ -18,10 +19,12 @@ from shoal.core.units import (
     MetersPerSecondSquared,
     Seconds,
 )
+from shoal.scenario.battery import Battery, check_battery
 from shoal.scenario.choices import headline
 from shoal.scenario.disturbances import Disturbance
 from shoal.scenario.durations import Steps, with_whole_steps
 from shoal.scenario.frozen import MOST_ENTRIES, Chance, Count, Frozen, Name, NotNegative, Positive
+from shoal.scenario.radios import RADIOS
 from shoal.scenario.scales import scales_of
 from shoal.scenario.sea import Sea
 from shoal.scenario.strategy_choice import StrategyChoice
@@ -39,6 +42,12 @@ def _sentence(text: str) -> str:
     if len(text) > 2000 or any(hides(each) for each in text if each not in "\n\t"):
         raise ValueError(f"{quoted(text)} is not a sentence; write 2000 characters at most, none of them a control one")
     return text
+
+
+def _radio(name: str) -> str:
+    if name not in RADIOS:
+        raise ValueError(f"{quoted(name)} is no radio; {did_you_mean(name, RADIOS)}there are: {', '.join(RADIOS)}")
+    return name
 
 
 class Area(Frozen):
@@ -73,6 +82,19 @@ class Fleet(Frozen):
     sensor_radius: Annotated[Meters, NotNegative] = Field(
         default=0.0, description="a target is detected when its rim is within this of the agent [m]"
     )
+    sensor: Literal["definite", "inverse-cube"] = Field(
+        default="definite",
+        description="detects whatever is within sensor_radius; or at any range, by a chance that falls with its cube",
+    )
+    sensor_time: Annotated[Seconds, Positive] = Field(
+        default=1.0, description="inverse-cube: at sensor_radius it takes this long to detect with a chance of 1/2 [s]"
+    )
+    position_error: Annotated[Meters, NotNegative] = Field(
+        default=0.0, description="standard deviation of each coordinate that its satellite receiver gives [m]"
+    )
+    position_error_time: Annotated[Seconds, Positive] = Field(
+        default=60.0, description="how long such an error lasts: its correlation falls by e in it [s]"
+    )
     start: Literal["uniform", "center", "corner", "arena"] = Field(
         default="uniform",
         description="where agents start: all over where they may go, in a tenth of its sides, or all over the arena",
@@ -97,6 +119,21 @@ class Fleet(Frozen):
     max_turn_rate: Annotated[DegreesPerSecond, Positive] | None = Field(
         default=None, description="largest turn per second [deg/s]; default: any"
     )
+    battery: Battery | None = Field(default=None, description="what it has on board; default: never empty")
+    cost: Annotated[float, Field(strict=True, ge=0, le=1e12)] | None = Field(
+        default=None, description="of one agent, in any currency; for reports"
+    )
+
+    @model_validator(mode="after")
+    def _sensor_sees(self) -> Self:
+        if self.sensor == "inverse-cube" and self.sensor_radius <= 0:
+            raise ValueError("sensor is inverse-cube, but sensor_radius is 0; say at what range the chance is 1/2")
+        return self
+
+    @model_validator(mode="after")
+    def _battery_goes_with_it(self) -> Self:
+        check_battery(self)
+        return self
 
 
 class AdaptiveDegree(Frozen):
@@ -139,6 +176,12 @@ class Network(Frozen):
     loss: Chance = Field(default=0.0, description="chance that a neighbor's report of a step is not heard")
     delay: Annotated[int, Field(strict=True, ge=0, le=1000)] = Field(
         default=0, description="steps that a report takes; positions in it are as old"
+    )
+    interval: Annotated[Seconds, Positive] | None = Field(
+        default=None, description="time from one report of an agent to its next [s]; default: every step"
+    )
+    radio: Annotated[str, AfterValidator(_radio)] | None = Field(
+        default=None, description="a kind of radio, whose airtime and duty cycle are told; default: not told"
     )
     adaptive: AdaptiveDegree | None = Field(default=None, description="k adapts in time; neighbors is where it starts")
 
@@ -286,6 +329,17 @@ class Scenario(Frozen):
         return sum(self.counts)
 
     @property
+    def report_steps(self) -> int:
+        """Steps from one report of an agent to its next."""
+        interval = self.network.interval
+        return 1 if interval is None else int(min(round(interval / self.time_step), NEVER))
+
+    @property
+    def report_interval(self) -> float:
+        """Time from one report of an agent to its next [s]."""
+        return self.report_steps * self.time_step
+
+    @property
     def unit(self) -> float:
         """Length of one arena unit [m]: the longer side / 20."""
         return max(self.area.width, self.area.height) / ARENA_UNITS
@@ -324,6 +378,16 @@ class Scenario(Frozen):
             name = next(iter(files))
             raise ValueError(
                 f"sea.{name} is a file, but area.origin is not given; say where (0, 0) is: [lon, lat] in deg"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _reports_take_a_step(self) -> Self:
+        interval = self.network.interval
+        if interval is not None and interval < self.time_step * (1 - 1e-9):
+            raise ValueError(
+                f"network.interval is {interval:g} s, but agents speak once in a step of {self.time_step:g} s at most; "
+                "raise it, or lower time_step"
             )
         return self
 

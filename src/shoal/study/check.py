@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from shoal.scenario.assumptions import assumptions
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
 from shoal.scenario.on_track import open_tracks
@@ -26,7 +27,7 @@ def check(scenario: Source, *, trials: bool = False, **changes: Any) -> list[str
     """
     known = load(scenario, **changes)
     crew_of(known)
-    notes = [note for track in open_tracks(known) for note in track.notes]
+    notes = [*assumptions(known), *(note for track in open_tracks(known) for note in track.notes)]
     notes += [*_followed(known), *unsuited(known)]
     if trials:
         from shoal.study.trial import tried  # which needs the engine

@@ -14,6 +14,7 @@ class World(NamedTuple):
     imperfect : sensors miss targets or report false ones
     mortal : agents are lost or join during the run
     disturbed : there are disturbances; it is imperfect and mortal then, too
+    inexact : agents do not know quite where they are; powered : they have batteries
     flowing : there are currents or wind; windy : wind, and agents that it moves
     coastal : there is land, or a limit to where agents may go
     target_radius : of the smallest target
@@ -32,6 +33,8 @@ class World(NamedTuple):
     imperfect: bool
     mortal: bool
     disturbed: bool
+    inexact: bool
+    powered: bool
     flowing: bool
     windy: bool
     coastal: bool

@@ -17,13 +17,15 @@ class Network(NamedTuple):
     """What is chosen of the radio.
 
     limited : whether any pair may be out of touch; range_square [m^2]
-    delay : steps that a report takes; loss : chance that a linked pair misses a step's report
+    delay : steps that a report takes; interval : steps from one report of an agent to its next
+    loss : chance that a linked pair misses a report
     adaptive : k follows the contact, from fewest to most of each agent (L,), with memory `patience` [s]
     """
 
     limited: bool
     range_square: float
     delay: int
+    interval: int
     loss: float
     adaptive: bool
     fewest: npt.NDArray[np.int64]
@@ -32,7 +34,7 @@ class Network(NamedTuple):
 
 
 class Air(NamedTuple):
-    """What is on the air: what was said in the last steps, D rows of L lanes, step s in row s % D."""
+    """What is on the air: the last D times that all spoke, rows of L lanes, the n-th time in row n % D."""
 
     x: Floats
     y: Floats
@@ -64,14 +66,16 @@ def new_radio(
     delay: int,
     loss: float,
     degree: tuple[int, int, float] | None,
+    interval: int = 1,
 ) -> Any:
     """Return a radio that has heard nothing yet; `degree` is fewest, most and patience of an adaptive one."""
-    rows = delay + 1
+    rows = -(-delay // interval) + 1
     fewest, most, patience = degree or (0, 0, 0.0)
     return Radio(
         limited=limited,
         range_square=reach * reach,
         delay=delay,
+        interval=interval,
         loss=loss,
         adaptive=degree is not None,
         fewest=np.full(lanes, fewest),
@@ -87,13 +91,31 @@ def new_radio(
 
 
 @kernel
+def speaks(radio, number):
+    """Whether agents speak at a step, and what they say must be kept: all do at once, every `interval` steps."""
+    return (radio.delay > 0 or radio.interval > 1) and number % radio.interval == 0
+
+
+@kernel
+def spoken(radio, number):
+    """The step at which was said what is heard at a step: the last one whose reports have arrived by then."""
+    arrived = number - radio.delay
+    return arrived - arrived % radio.interval
+
+
+@kernel
+def row(radio, number):
+    """The row of the air that holds what was said at a step."""
+    return (number // radio.interval) % radio.x.shape[0]
+
+
+@kernel
 def send(radio, swarm, number):
-    """Keep what is said at a step until it arrives."""
-    rows = radio.delay + 1
-    now = number % rows
+    """Keep what is said at a step until it arrives, and until more is said."""
+    now = row(radio, number)
     for i in range(swarm.x.size):
-        radio.x[now, i] = swarm.x[i]
-        radio.y[now, i] = swarm.y[i]
+        radio.x[now, i] = swarm.fix_x[i]
+        radio.y[now, i] = swarm.fix_y[i]
         radio.vx[now, i] = swarm.vx[i]
         radio.vy[now, i] = swarm.vy[i]
         radio.on_target[now, i] = swarm.on_target[i]
@@ -103,13 +125,15 @@ def send(radio, swarm, number):
 
 @kernel
 def said(radio, swarm, number):
-    """What arrives at a step.
+    """What is heard at a step.
 
-    Without delay that is the swarm itself: in the sequential order, later agents hear what earlier ones just did.
+    Where it is said in the same step that is the swarm itself: in the sequential order, later agents hear what earlier
+    ones just did.
     """
-    if radio.delay == 0:
-        return Said(swarm.x, swarm.y, swarm.vx, swarm.vy, swarm.on_target)
-    old = (number + 1) % (radio.delay + 1)
+    then = spoken(radio, number)
+    if then == number:
+        return Said(swarm.fix_x, swarm.fix_y, swarm.vx, swarm.vy, swarm.on_target)
+    old = row(radio, then)
     return Said(radio.x[old], radio.y[old], radio.vx[old], radio.vy[old], radio.on_target[old])
 
 
@@ -120,18 +144,32 @@ def adapted(contact, on_contact, weight):
 
 
 @kernel
-def limit_links(links, swarm, radio, first, agents, number):
+def hide_far_away(links, swarm, range_square, first, agents):
+    """Unlink speakers out of range where reports do not say quite where they are: the waves go by where all are."""
+    square = links.square
+    for lane in range(min(links.reach.size, agents - first)):
+        x, y = swarm.x[first + lane], swarm.y[first + lane]
+        for j in range(agents):
+            dx, dy = swarm.x[j] - x, swarm.y[j] - y
+            square[j, lane] = square[j, lane] if dx * dx + dy * dy <= range_square else np.inf
+
+
+@kernel
+def limit_links(links, swarm, radio, first, agents, number, range_square):
     """Unlink speakers out of range, absent, or yet unheard; links.wanted becomes k, or all that are left.
 
     The range is to the place that a report says: where the speaker was when it spoke. Absent agents hear no one.
+
+    range_square : infinite where the range was judged already
     """
+    then = spoken(radio, number)
     square, wanted = links.square, links.wanted
     lanes = wanted.size
     for i in range(lanes):
         wanted[i] = 0
     for j in range(agents):
-        silent = number < radio.delay + swarm.joins[j] or number - radio.delay >= swarm.leaves[j]
-        limit = -1.0 if silent else radio.range_square
+        silent = then < swarm.joins[j] or then >= swarm.leaves[j]
+        limit = -1.0 if silent else range_square
         for i in range(lanes):
             linked = square[j, i] <= limit and square[j, i] < np.inf and swarm.alive[first + i] > 0.0
             square[j, i] = square[j, i] if linked else np.inf
@@ -152,7 +190,7 @@ def deafen(links, effects, first, agents):
 
 @kernel
 def lose_reports(links, radio, step_key, first, agents):
-    """Unlink every pair whose report is lost in this step."""
+    """Unlink every pair whose report is lost; `step_key` is that of the step at which it arrives."""
     square = links.square
     for j in range(agents):
         key = split(step_key, _LOSS + j)

@@ -1,5 +1,7 @@
 """Which agents detect a target: the paper's disc (Eq. 1), with chances to miss it and of false alarms."""
 
+import math
+
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import split, uniform
 from shoal.world.sea.sight import in_sight
@@ -18,6 +20,22 @@ def within_reach(dx, dy, reach):
 def notices(key, target, detection):
     """Whether a sensor notices a target within its reach, by its chance; `key` is the agent's of the step."""
     return uniform(split(key, _DETECTION), target) < detection
+
+
+@kernel
+def glimpsed(distance, rate, time_step):
+    """Chance to detect a target `distance` [m] away in a time-step: Koopman's law of the inverse cube.
+
+    The rate of detection at range r is m / r^3, so that the chance in time t is 1 - exp(-m t / r^3), whatever the steps
+    that t is made of. A target that passes in a straight line at speed v and least distance x is then detected with
+    the chance 1 - exp(-2 m / (v x^2)), and the sweep width is sqrt(8 pi m / v). Koopman, Search and Screening, 1946
+    (Pergamon, 1980), chapter 3, where m = k h.
+
+    distance : to the rim of the target, 0 or less where the agent is on it; rate : m [m^3/s], 0 of a definite range
+    """
+    if rate <= 0.0 or distance <= 0.0:
+        return 1.0
+    return -math.expm1(-rate * time_step / (distance * distance * distance))
 
 
 @kernel
@@ -47,11 +65,15 @@ def sense(swarm, targets, effects, sea, world, step_key):
             for i in range(agents):
                 dx = swarm.x[i] - target.x
                 dy = swarm.y[i] - target.y
-                sees = within_reach(dx, dy, swarm.sensor_radius[i] + target.radius) & (swarm.alive[i] > 0.0)
+                sees = within_reach(dx, dy, swarm.horizon[i] + target.radius) & (swarm.alive[i] > 0.0)
                 if world.coastal and sees:
                     sees = in_sight(sea.land, swarm.x[i], swarm.y[i], target.x, target.y)
                 if world.imperfect:
-                    sees &= notices(split(step_key, i), j, swarm.detection[i] * effects[i].senses)
+                    chance = swarm.detection[i] * effects[i].senses
+                    if swarm.glimpse[i] > 0.0:
+                        distance = math.sqrt(dx * dx + dy * dy) - target.radius
+                        chance *= glimpsed(distance, swarm.glimpse[i], world.time_step)
+                    sees &= notices(split(step_key, i), j, chance)
                 swarm.on_target[i] |= sees
                 watchers += sees
         targets[j].watchers = watchers
