@@ -3,6 +3,7 @@
 from typing import Any
 
 from shoal.scenario.assumptions import assumptions
+from shoal.scenario.at_sea import open_sea
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
 from shoal.scenario.on_track import open_tracks
@@ -27,7 +28,9 @@ def check(scenario: Source, *, trials: bool = False, **changes: Any) -> list[str
     """
     known = load(scenario, **changes)
     crew_of(known)
-    notes = [*assumptions(known), *(note for track in open_tracks(known) for note in track.notes)]
+    opened = open_sea(known)
+    notes = [*assumptions(known), *(opened.notes if opened else ())]
+    notes += [note for track in open_tracks(known) for note in track.notes]
     notes += [*_followed(known), *unsuited(known)]
     if trials:
         from shoal.study.trial import tried  # which needs the engine
