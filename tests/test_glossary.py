@@ -15,8 +15,8 @@ SOURCE = Path(shoal.__file__).parent
 (TABLE,) = re.findall(r"\| --- \| --- \|\n(.*)", (ROOT / "docs/glossary.md").read_text(encoding="utf-8"), re.DOTALL)
 TERMS = re.findall(r"^\| ([^|]+) \|", TABLE, re.MULTILINE)
 DICTIONARY = """
-actor adaptive add address any around array arrived assembled asset assumption atomic bar bound box build cannot carry change
-chart check
+actor adaptive add address any around array arrived assembled asset assumption atomic bar bound box build cannot carry
+change chart check
 choice choose clean cli client column command compare compared compiled compiler compiling console content
 core count crash csv data dataframe dataset declared difference disc dispatch dive doc drag drawing duration each edit
 effort encoder ended error executor experiment export extra figure file film fixed folder format frontier frozen
