@@ -42,9 +42,10 @@ def _duty(scenario: Scenario) -> list[str]:
     if time > interval:
         return [f"{report}, longer than the {interval:g} s from one to the next: it cannot be sent"]
     if time / interval > radio.duty:
+        lawful = math.ceil(100 * time / radio.duty) / 100
         return [
             f"{report}, {100 * time / interval:.3g} % of the time at one every {interval:g} s, but "
-            f"{100 * radio.duty:g} % are allowed ({radio.law}): an interval of {math.ceil(100 * time / radio.duty) / 100:g} s keeps to it"
+            f"{100 * radio.duty:g} % are allowed ({radio.law}): an interval of {lawful:g} s keeps to it"
         ]
     return []
 
