@@ -17,7 +17,7 @@ def tally_energy(tally, step, world, swarm, targets, scratch):
     if world.powered:
         for i in range(world.agents):
             tally.spent[0, i] = swarm.spent[i]
-            if swarm.spent[i] >= swarm.capacity[i] and tally.emptied[0] < 0.0:
+            if swarm.spent[i] >= swarm.capacity[i] and tally.emptied[0] == 0.0:
                 tally.emptied[0] = step.number + 1.0
 
 
@@ -47,7 +47,7 @@ def first_empty(tally: Any, facts: Facts) -> float:
     """How long all batteries lasted [s], at most the run; NaN without batteries."""
     if not any(facts.capacities):
         return float("nan")
-    steps = tally.emptied[0] if tally.emptied[0] >= 0 else tally.steps.sum()
+    steps = tally.emptied[0] if tally.emptied[0] > 0 else tally.steps.sum()
     return float(steps * facts.time_step)
 
 
@@ -55,7 +55,7 @@ MEASUREMENT = Measurement(
     "energy",
     sums=(
         Sum("spent", "J", "taken from each agent's battery", ("run", "agent")),
-        Sum("emptied", "steps", "done when the first battery was empty, -1: none was", ("run",), start=-1.0),
+        Sum("emptied", "steps", "done when the first battery was empty, 0: none was", ("run",)),
     ),
     after_move=tally_energy,
     metrics=(

@@ -1,5 +1,7 @@
 """What a scenario takes for granted, or asks of a radio that the law forbids: a sentence each."""
 
+import math
+
 from shoal.core.messages import ENVELOPE_BYTES, REPORT_BYTES
 from shoal.core.text import plain
 from shoal.scenario.battery import assumed_drag
@@ -40,9 +42,10 @@ def _duty(scenario: Scenario) -> list[str]:
     if time > interval:
         return [f"{report}, longer than the {interval:g} s from one to the next: it cannot be sent"]
     if time / interval > radio.duty:
+        lawful = math.ceil(100 * time / radio.duty) / 100
         return [
             f"{report}, {100 * time / interval:.3g} % of the time at one every {interval:g} s, but "
-            f"{100 * radio.duty:g} % are allowed ({radio.law}): an interval of {time / radio.duty:.3g} s keeps to it"
+            f"{100 * radio.duty:g} % are allowed ({radio.law}): an interval of {lawful:g} s keeps to it"
         ]
     return []
 
