@@ -9,25 +9,38 @@ from typing import Any
 import numpy as np
 
 from shoal.compiler.kernel import kernel
-from shoal.compiler.phase import phase
+from shoal.compiler.phase import enter, phase
 from shoal.compiler.placed import part
 from shoal.core.draws import TARGET_STREAM, split
 from shoal.core.plugin_errors import plugin_errors
+from shoal.engine.ahead import compile_ahead
 from shoal.engine.frames import keep_frame, keep_links
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
-from shoal.engine.stage import FRAMES, NATURE, RADIO, RUN, SCRATCH, SEA, SWARM, TALLY, TARGETS, TRACKS, WORLD, Addresses
+from shoal.engine.nature import disturb_all, drift_targets, hide, launch_agent, sail_all, stop_target
+from shoal.engine.stage import (
+    FRAMES,
+    NATURE,
+    PHASES,
+    RADIO,
+    RUN,
+    SCRATCH,
+    SEA,
+    SWARM,
+    TALLY,
+    TARGETS,
+    TRACKS,
+    WORLD,
+    Addresses,
+)
 from shoal.metrics.contract import Step
-from shoal.world.disturbances.dispatch import disturb
+from shoal.world.arena import World
 from shoal.world.energy import consume
 from shoal.world.motion import (
-    add_drift,
     limit_maneuver,
     limit_speed,
     move,
     move_adrift,
     note_drift,
-    sail,
-    sail_coast,
     slow_down,
 )
 from shoal.world.neighbors import count_heard, link_nearest, measure_distances, rank_heard, settle_ties
@@ -44,8 +57,6 @@ from shoal.world.radio import (
     speaks,
     spoken,
 )
-from shoal.world.sea.sea import carry, span
-from shoal.world.sea.sight import Places, hide_behind_land
 from shoal.world.sensing import sense
 from shoal.world.targets.dispatch import advance_target
 
@@ -60,11 +71,10 @@ def sense_all(stage, number, first, batch, key):
     radio = part(stage, RADIO)
     targets = part(stage, TARGETS)
     nature = part(stage, NATURE)
-    run = part(stage, RUN)
     tally = part(stage, TALLY)
     scratch = part(stage, SCRATCH)
     if world.disturbed:
-        disturb(nature, swarm, targets, world, number, split(split(run.seed, 0), run.run))
+        enter(part(stage, PHASES).disturb, stage, number, 0, 0, key)
     if world.mortal:
         update_presence(swarm, world, number)
     sense(swarm, targets, nature.effects, part(stage, SEA), world, key)
@@ -90,14 +100,15 @@ def link(stage, number, first, batch, key):
     swarm = part(stage, SWARM)
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
-    find_links(scratch, world, swarm, radio, part(stage, NATURE).effects, part(stage, SEA), number, first)
+    find_links(stage, scratch, world, swarm, radio, part(stage, NATURE).effects, number, first)
     return 0
 
 
 @kernel
-def find_links(scratch, world, swarm, radio, effects, sea, number, first):
+def find_links(stage, scratch, world, swarm, radio, effects, number, first):
     """Link the agents from `first` on to those whose reports may reach them, ties and losses aside."""
     links = scratch.links
+    phases = part(stage, PHASES)
     last = first + links.reach.size
     reports = said(radio, swarm, number)
     measure_distances(
@@ -105,13 +116,12 @@ def find_links(scratch, world, swarm, radio, effects, sea, number, first):
     )
     if world.disturbed:
         deafen(links, effects, first, world.agents)
-    range_square, there_x, there_y = radio.range_square, reports.x, reports.y
+    range_square = radio.range_square
     if world.inexact:
         hide_far_away(links, swarm, range_square, first, world.agents)
-        range_square, there_x, there_y = np.inf, swarm.x, swarm.y
+        range_square = np.inf
     if world.coastal:
-        speakers = Places(there_x, there_y)
-        hide_behind_land(links, scratch.sight, speakers, swarm, sea.land, range_square, first, world.agents)
+        enter(phases.hide, stage, number, first, 0, 0)
     if radio.limited:
         limit_links(links, swarm, radio, first, world.agents, number, range_square)
         link_nearest(links, links.wanted, world.agents)
@@ -178,7 +188,7 @@ def move_agents(stage, number, first, batch, key):
     if world.powered:
         consume(swarm, world, number, first, there)
     if world.flowing or world.coastal:
-        go_to_sea(swarm, effects, part(stage, SEA), scratch, world, number, first, there)
+        enter(part(stage, PHASES).sail, stage, number, first, batch, key)
     else:
         go(swarm, effects, world, first, last)
     if world.inexact:
@@ -200,26 +210,6 @@ def go(swarm, effects, world, first, last):
         move(y, vy, command_y, world.clamp_y, world.time_step)
 
 
-@kernel
-def go_to_sea(swarm, effects, sea, scratch, world, number, first, last):
-    """Move agents first..last where water and wind carry them, and land stops them."""
-    time_step = world.time_step
-    drift_x, drift_y = swarm.drift_x, swarm.drift_y
-    for i in range(first, last):
-        drift_x[i] = 0.0
-        drift_y[i] = 0.0
-    if world.flowing:
-        carry(sea, swarm, scratch, world.windy, span(sea, number, time_step), first, last)
-    if world.disturbed:
-        add_drift(swarm, effects, time_step, first, last)
-    if world.coastal:
-        sail_coast(swarm, drift_x, drift_y, sea.shore, world, first, last)
-    else:
-        x, y, vx, vy = swarm.x[first:last], swarm.y[first:last], swarm.vx[first:last], swarm.vy[first:last]
-        sail(x, vx, swarm.command_x[first:last], drift_x[first:last], world.clamp_x, time_step)
-        sail(y, vy, swarm.command_y[first:last], drift_y[first:last], world.clamp_y, time_step)
-
-
 @phase
 def measure(stage, number, first, batch, key):
     """Measure where agents head, while the targets are still where they were."""
@@ -238,8 +228,15 @@ def move_targets(stage, number, first, batch, key):
     targets = part(stage, TARGETS)
     tracks = part(stage, TRACKS)
     sea = part(stage, SEA)
+    phases = part(stage, PHASES)
+    scratch = part(stage, SCRATCH)
+    if world.flowing:
+        enter(phases.drift_targets, stage, number, 0, batch, key)
     for j in range(targets.size):
+        scratch.a[0], scratch.b[0] = targets[j].x, targets[j].y
         advance_target(targets[j], tracks, swarm, sea, world, number + 1, split(key, TARGET_STREAM + j))
+        if world.coastal:
+            enter(phases.stop_target, stage, number, j, batch, key)
     return 0
 
 
@@ -253,9 +250,8 @@ def come_to_rest(stage, number, first, batch, key):
     swarm = part(stage, SWARM)
     targets = part(stage, TARGETS)
     nature = part(stage, NATURE)
-    run = part(stage, RUN)
     if world.disturbed:
-        disturb(nature, swarm, targets, world, number, split(split(run.seed, 0), run.run))
+        enter(part(stage, PHASES).disturb, stage, number, 0, 0, key)
     if world.mortal:
         update_presence(swarm, world, number)
     sense(swarm, targets, nature.effects, part(stage, SEA), world, key)
@@ -287,34 +283,45 @@ def look_at_links(stage, number, first, frame, key):
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
     links = scratch.links
-    find_links(scratch, world, swarm, radio, part(stage, NATURE).effects, part(stage, SEA), number, first)
+    find_links(stage, scratch, world, swarm, radio, part(stage, NATURE).effects, number, first)
     count_heard(links, world.agents)
     settle_links(links, world, swarm, radio, part(stage, RUN), number, first)
     keep_links(frames, frame, links, first, world.agents)
     return 0
 
 
-_IN_ORDER = (
-    sense_all,
-    record_frame,
-    link,
-    settle,
-    record_links,
-    move_agents,
-    measure,
-    move_targets,
-    come_to_rest,
-    look_at_links,
-)
+def addresses(world: World, frames: bool = False) -> Addresses:
+    """Compile the phases that a run needs, or load them from the cache; the others are nowhere, at 0.
 
-
-def addresses() -> Addresses:
-    """Compile the phases, or load them from the cache.
+    Parameters
+    ----------
+    world : what there is in the run
+    frames : whether frames are kept, or looked at
 
     Raises
     ------
     PluginError : what an installed package counts or moves cannot be compiled
     """
+    at_sea = world.flowing or world.coastal
+    needed = [
+        (sense_all, True),
+        (disturb_all, world.disturbed),
+        (record_frame, frames),
+        (link, True),
+        (hide, world.coastal),
+        (settle, True),
+        (record_links, frames),
+        (move_agents, True),
+        (sail_all, at_sea),
+        (measure, True),
+        (drift_targets, world.flowing),
+        (move_targets, True),
+        (stop_target, world.coastal),
+        (come_to_rest, True),
+        (look_at_links, frames),
+        (launch_agent, world.coastal),
+    ]
+    compile_ahead([each for each, wanted in needed if wanted])
     with plugin_errors():
-        where: list[Any] = [each.address() for each in _IN_ORDER]
+        where: list[Any] = [each.address() if wanted else 0 for each, wanted in needed]
     return Addresses(*where)

@@ -34,7 +34,10 @@ def set_out(stage, places, lifetimes, losses):
     run_key = split(split(run.seed, 0), run.run)
     start_key = split(run_key, START_STEP)
     sea = part(stage, SEA)
-    place(swarm, sea, world, places, run_key)
+    place(swarm, world, places, run_key)
+    if world.coastal:
+        for i in range(world.agents):
+            enter(part(stage, PHASES).launch, stage, places[swarm.fleet[i]], i, 0, run_key)
     draw_sides(swarm, targets, world, run_key)
     draw_lifetimes(swarm, world, lifetimes, run_key)
     for number, fleet, count in losses:

@@ -66,15 +66,21 @@ class Addresses(NamedTuple):
     """Where the machine code of each phase is, in the order of a step."""
 
     sense: Any
+    disturb: Any
     record_frame: Any
     link: Any
+    hide: Any
     settle_ties: Any
     record_links: Any
     move: Any
+    sail: Any
     measure: Any
+    drift_targets: Any
     move_targets: Any
+    stop_target: Any
     come_to_rest: Any
     look_at_links: Any
+    launch: Any
 
 
 class Run(NamedTuple):

@@ -98,7 +98,7 @@ class Simulation:
         self._scratch = new_scratch(self.world, self._swarm.x.size, self.crew.sums, self.crew.ranked)
         self._begin, self._rollout = self.crew.compiled(begin_run, rollout)
         self._which = Run(np.uint64(scenario.seed), run, scenario.steps)
-        self._phases = addresses()
+        self._phases = addresses(self.world)
         self._placed = Placed(self._stage(self._new_frames(0)))
         self._looking = Placed(self._stage(self._new_frames(1)))
         starts = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
@@ -139,6 +139,7 @@ class Simulation:
             self._roll(self._placed, first, last, NEVER, NEVER)
             return None
         tail = NEVER if tail is None else tail
+        self._phases = addresses(self.world, frames=True)
         frames = self._new_frames(count_frames(first, last, every, tail))
         self._roll(Placed(self._stage(frames)), first, last, every, tail)
         return Trajectory.from_frames(frames, self.memory_fields) if frames.step.size else None
@@ -149,6 +150,7 @@ class Simulation:
         Its links are those of the coming step. In the sequential order, in which agents hear what others have just
         done, they are those of agents that all decide first.
         """
+        self._phases = addresses(self.world, frames=True)
         self._looking = self._in_place(self._looking)
         _look(self._looking.address, self.number)
         seen = Frames(*(array.copy() for array in self._looking.stage.frames))

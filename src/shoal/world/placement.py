@@ -27,7 +27,7 @@ def start(where, x, y):
 
 
 @kernel
-def place(swarm, sea, world, places, run_key):
+def place(swarm, world, places, run_key):
     """Scatter agents over where they may go, or over the whole arena, as in the runs that were published.
 
     Of the latter the wall puts those outside it inside in step 1.
@@ -40,19 +40,19 @@ def place(swarm, sea, world, places, run_key):
         x, y = start(where, 2.0 * uniform(draw, 0) - 1.0, 2.0 * uniform(draw, 1) - 1.0)
         swarm.x[i] = (world.half_x if where == _ARENA else world.clamp_x) * x
         swarm.y[i] = (world.half_y if where == _ARENA else world.clamp_y) * y
-        if world.coastal:
-            _launch(swarm, i, sea.shore, where, world, draw)
 
 
 @kernel
-def _launch(swarm, i, shore, where, world, draw):
+def launch(swarm, i, shore, where, world, run_key):
     """Put an agent that would start on land at sea: another place by chance, all over; else the nearest water."""
     if clearance(shore, swarm.x[i], swarm.y[i]) > 0.0:
         return
     if where in (_CENTER, _CORNER):
         swarm.x[i], swarm.y[i] = afloat(shore, swarm.x[i], swarm.y[i])
     else:
-        swarm.x[i], swarm.y[i] = anywhere_afloat(shore, world.clamp_x, world.clamp_y, draw)
+        draw = split(split(split(run_key, START_STEP), i), _PLACEMENT)
+        x, y = anywhere_afloat(shore, world.clamp_x, world.clamp_y, draw)
+        swarm.x[i], swarm.y[i] = afloat(shore, x, y)
 
 
 @kernel

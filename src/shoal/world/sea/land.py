@@ -89,7 +89,10 @@ def _off_land(land, x, y):
 
 @kernel
 def anywhere_afloat(land, half_x, half_y, draw):
-    """A place at sea, by chance, uniform in +- half_x, half_y [m]; on open water what draws 0 and 1 alone say."""
+    """A place at sea, by chance, uniform in +- half_x, half_y [m]; on open water what draws 0 and 1 alone say.
+
+    Where so little water is found that no try meets it, the last try: whoever goes there ends at the shore.
+    """
     x = half_x * (2.0 * uniform(draw, 0) - 1.0)
     y = half_y * (2.0 * uniform(draw, 1) - 1.0)
     again = split(draw, _REDRAWN)
@@ -98,7 +101,7 @@ def anywhere_afloat(land, half_x, half_y, draw):
             return x, y
         x = half_x * (2.0 * uniform(again, 2 * attempt) - 1.0)
         y = half_y * (2.0 * uniform(again, 2 * attempt + 1) - 1.0)
-    return afloat(land, x, y)
+    return x, y
 
 
 @kernel

@@ -7,9 +7,11 @@ from typing import Annotated
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import uniform
 from shoal.core.units import Doc, Meters, Range
-from shoal.world.sea.land import afloat
+from shoal.world.sea.land import clearance
 from shoal.world.targets.contract import Target
 from shoal.world.targets.moves import go
+
+_TRIES = 64
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,11 +26,13 @@ class Adrift:
 @kernel
 def begin(target, around, draw):
     """Start anywhere in the disc where there is water."""
-    distance = target.spread * math.sqrt(uniform(draw, 0))
-    angle = 2.0 * math.pi * uniform(draw, 1)
-    target.x, target.y = afloat(
-        around.shore, target.x + distance * math.cos(angle), target.y + distance * math.sin(angle)
-    )
+    middle_x, middle_y = target.x, target.y
+    for attempt in range(_TRIES):
+        distance = target.spread * math.sqrt(uniform(draw, 2 * attempt))
+        angle = 2.0 * math.pi * uniform(draw, 2 * attempt + 1)
+        target.x, target.y = middle_x + distance * math.cos(angle), middle_y + distance * math.sin(angle)
+        if clearance(around.shore, target.x, target.y) > 0.0:
+            break
 
 
 @kernel

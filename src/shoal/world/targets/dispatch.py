@@ -4,8 +4,7 @@ from typing import Any
 
 from shoal.compiler.kernel import kernel
 from shoal.core.draws import uniform
-from shoal.world.sea.land import anywhere_afloat, sailed, seaward
-from shoal.world.sea.sea import Leeway, carried, span
+from shoal.world.sea.land import anywhere_afloat
 from shoal.world.targets.catalogue import KINDS
 from shoal.world.targets.contract import Around
 from shoal.world.targets.dive import surface_or_dive
@@ -22,38 +21,9 @@ def begin_target(target, tracks, swarm, sea, world, draw):
 def advance_target(target, tracks, swarm, sea, world, steps_done, draw):
     """Move a target by one time-step; `steps_done` counts the steps completed with this one."""
     time = steps_done * world.time_step
-    if world.flowing:
-        _drift(target, sea, world, steps_done - 1)
-    x, y = target.x, target.y
     around = Around(world.time_step, time, world.agents, swarm.x, swarm.y, swarm.alive, tracks, sea.shore)
     _advance(target, around, draw)
-    if world.coastal and target.fixes == 0:  # recorded ones went where they went
-        _stop_at_land(target, sea.shore, x, y)
     surface_or_dive(target, time)
-
-
-@kernel
-def _drift(target, sea, world, number):
-    """Let water and wind add to its next displacement; what disturbances add is there already."""
-    wind = Leeway(target.leeway_slope, target.leeway_offset, target.leeway_cosine, target.leeway_sine)
-    own_x, own_y = target.speed * target.heading_x, target.speed * target.heading_y
-    step = span(sea, number, world.time_step)
-    drift_x, drift_y = carried(sea, target.x, target.y, own_x, own_y, step, wind)
-    target.drift_x = drift_x + (target.drift_x if world.disturbed else 0.0)
-    target.drift_y = drift_y + (target.drift_y if world.disturbed else 0.0)
-
-
-@kernel
-def _stop_at_land(target, shore, x, y):
-    """Let it end at the shore if it ran into it, and head off from there."""
-    free_x, free_y = target.x, target.y
-    target.x, target.y = sailed(shore, x, y, free_x, free_y)
-    if target.x != free_x or target.y != free_y:
-        out_x, out_y = seaward(shore, target.x, target.y)
-        into = target.heading_x * out_x + target.heading_y * out_y
-        if into < 0.0:
-            target.heading_x -= 2.0 * into * out_x
-            target.heading_y -= 2.0 * into * out_y
 
 
 @kernel

@@ -1,0 +1,106 @@
+"""What nature does in a step: phases that only runs with disturbances, a sea or a coast compile, and others call.
+
+See phases.py for what a phase is given.
+"""
+
+from shoal.compiler.kernel import kernel
+from shoal.compiler.phase import phase
+from shoal.compiler.placed import part
+from shoal.core.draws import split
+from shoal.engine.stage import NATURE, RADIO, RUN, SCRATCH, SEA, SWARM, TARGETS, WORLD
+from shoal.world.disturbances.dispatch import disturb
+from shoal.world.motion import add_drift, sail, sail_coast
+from shoal.world.placement import launch
+from shoal.world.radio import said
+from shoal.world.sea.sea import carry, span
+from shoal.world.sea.sight import Places, hide_behind_land
+from shoal.world.targets.afloat import drift, stop_at_land
+
+
+@phase
+def disturb_all(stage, number, first, batch, key):
+    """Disturbances say what they do in the step."""
+    run = part(stage, RUN)
+    swarm, targets = part(stage, SWARM), part(stage, TARGETS)
+    disturb(part(stage, NATURE), swarm, targets, part(stage, WORLD), number, split(split(run.seed, 0), run.run))
+    return 0
+
+
+@phase
+def hide(stage, number, first, batch, key):
+    """Land hides speakers from the agents from `first` on."""
+    world = part(stage, WORLD)
+    swarm = part(stage, SWARM)
+    radio = part(stage, RADIO)
+    scratch = part(stage, SCRATCH)
+    reports = said(radio, swarm, number)
+    speakers, range_square = Places(reports.x, reports.y), radio.range_square
+    if world.inexact:  # waves go by where all are, and who is out of range is hidden already
+        speakers, range_square = Places(swarm.x, swarm.y), _ANY
+    land = part(stage, SEA).land
+    hide_behind_land(scratch.links, scratch.sight, speakers, swarm, land, range_square, first, world.agents)
+    return 0
+
+
+_ANY = 1e300  # [m^2]
+
+
+@phase
+def sail_all(stage, number, first, batch, key):
+    """Water and wind carry the agents from `first` on, and land stops them."""
+    world = part(stage, WORLD)
+    last = min(first + part(stage, SCRATCH).leader.size, world.agents)
+    _sail(
+        part(stage, SWARM),
+        part(stage, NATURE).effects,
+        part(stage, SEA),
+        part(stage, SCRATCH),
+        world,
+        number,
+        first,
+        last,
+    )
+    return 0
+
+
+@kernel
+def _sail(swarm, effects, sea, scratch, world, number, first, last):
+    time_step = world.time_step
+    drift_x, drift_y = swarm.drift_x, swarm.drift_y
+    for i in range(first, last):
+        drift_x[i] = 0.0
+        drift_y[i] = 0.0
+    if world.flowing:
+        carry(sea, swarm, scratch, world.windy, span(sea, number, time_step), first, last)
+    if world.disturbed:
+        add_drift(swarm, effects, time_step, first, last)
+    if world.coastal:
+        sail_coast(swarm, drift_x, drift_y, sea.shore, world, first, last)
+    else:
+        x, y, vx, vy = swarm.x[first:last], swarm.y[first:last], swarm.vx[first:last], swarm.vy[first:last]
+        sail(x, vx, swarm.command_x[first:last], drift_x[first:last], world.clamp_x, time_step)
+        sail(y, vy, swarm.command_y[first:last], drift_y[first:last], world.clamp_y, time_step)
+
+
+@phase
+def drift_targets(stage, number, first, batch, key):
+    """Water and wind add to the coming displacements of targets."""
+    world, sea, targets = part(stage, WORLD), part(stage, SEA), part(stage, TARGETS)
+    for j in range(targets.size):
+        drift(targets[j], sea, world, number)
+    return 0
+
+
+@phase
+def stop_target(stage, number, j, batch, key):
+    """Land stops target j, which was where scratch says."""
+    scratch = part(stage, SCRATCH)
+    stop_at_land(part(stage, TARGETS)[j], part(stage, SEA).shore, scratch.a[0], scratch.b[0])
+    return 0
+
+
+@phase
+def launch_agent(stage, where, i, batch, key):
+    """Put an agent at sea that would start on land; where : index into PLACES."""
+    launch(part(stage, SWARM), i, part(stage, SEA).shore, where, part(stage, WORLD), key)
+    return 0
