@@ -37,7 +37,8 @@ def compile_ahead(phases: Sequence[Phase]) -> None:
         return
     code = _CODE.format(names=missing[::-1])
     quiet = subprocess.DEVNULL
-    subprocess.Popen([sys.executable, "-c", code], stdin=quiet, stdout=quiet, stderr=quiet)
+    started = subprocess.Popen([sys.executable, "-c", code], stdin=quiet, stdout=quiet, stderr=quiet)
+    started.returncode = 0  # nobody waits for it, and it may outlive us
 
 
 def _home(phase: Phase) -> str:
