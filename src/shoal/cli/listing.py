@@ -14,10 +14,9 @@ from shoal.cli.progress import note
 
 def presets() -> None:
     """List the scenarios that come with Shoal."""
-    from shoal.scenario.load import load
-    from shoal.scenario.load import presets as names
+    from shoal.study.listing import list_presets
 
-    _print_rows([(name, styled(load(name).description, "")) for name in names()])
+    _print_rows([(each.name, styled(each.description, "")) for each in list_presets()])
 
 
 def strategies(*, json_: Annotated[bool, Parameter(name="--json", negative=())] = False) -> None:

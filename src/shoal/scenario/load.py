@@ -1,6 +1,7 @@
 """TOML to Scenario; a wrong field is refused with file, line, field, value, reason and the nearest valid name."""
 
 import io
+import json
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
@@ -224,8 +225,16 @@ def _left_open(choice: StrategyChoice) -> str:
 
 
 def preset_text(name: str) -> str | None:
-    """The file of a preset, comments and all; None if there is none of this name."""
-    return (_preset_folder() / f"{name}.toml").read_text(encoding="utf-8") if name in presets() else None
+    """The file of a preset, comments and all; None if there is none of this name.
+
+    A file beside it, which it names, is named by where it lies here: the text may be saved anywhere.
+    """
+    if name not in presets():
+        return None
+    text: str = (_preset_folder() / f"{name}.toml").read_text(encoding="utf-8")
+    for file in _preset_folder().iterdir():
+        text = text.replace(f'= "{file.name}"', f"= {json.dumps(Path(str(file)).as_posix())}")
+    return text
 
 
 def _text_of(source: str | PathLike[str]) -> str:
