@@ -24,6 +24,16 @@ def test_the_example_runs(script, tmp_path):
     assert done.stdout
 
 
+def test_the_sea_of_a_preset_is_what_its_script_makes(tmp_path):
+    netcdf = pytest.importorskip("netCDF4", reason="NetCDF files need pip install '.[maritime]'")
+    subprocess.run([sys.executable, ROOT / "examples/sea_file.py", tmp_path / "sea.nc"], check=True)
+    shipped = ROOT / "src/shoal/scenario/presets/offshore.nc"
+    with netcdf.Dataset(tmp_path / "sea.nc") as made, netcdf.Dataset(shipped) as kept:
+        assert set(made.variables) == set(kept.variables)
+        for name in made.variables:
+            np.testing.assert_allclose(made[name][:], kept[name][:], rtol=0, atol=1.01e-3, err_msg=name)
+
+
 def test_the_example_strategy_runs(tmp_path):
     command = [sys.executable, "-m", "shoal", "run", "oceans2020", "--steps", "2000", "--strategy"]
     done = subprocess.run(

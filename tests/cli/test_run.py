@@ -203,6 +203,8 @@ class TestSweep:
         vary = ("--vary", "neighbors=10,20", "--vary", "fast=0,15")
         assert shoal(capsys, "sweep", "oceans2020", *vary, "--runs", 2, "--steps", 100, "--out", "s")[0] == 0
         assert "time on target" in shoal(capsys, "results", "s")[1]
+        assert "speed [m/s]" in shoal(capsys, "results", "s", "--metric", "cost,speed")[1]
+        assert "is not a metric" in shoal(capsys, "results", "s", "--metric", "speed,fun")[2]
         assert len(json.loads(shoal(capsys, "results", "s", "--json")[1])) == 8
         assert len(json.loads(shoal(capsys, "results", "s", "--by", "fast", "--json")[1])) == 2
         assert shoal(capsys, "results", "s", "--csv")[1] == Path("s/results.csv").read_text()

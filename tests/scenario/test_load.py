@@ -3,6 +3,7 @@
 import math
 import re
 import tomllib
+from datetime import datetime
 
 import pytest
 
@@ -11,7 +12,14 @@ from shoal.core.errors import ScenarioError, StrategyError
 from shoal.scenario.load import load, preset_text, presets, read_table, scenario_from, to_toml
 from shoal.scenario.schema import Scenario, json_schema
 
-PRESETS = ["aamas2020", "aamas2020-constant", "oceans2020", "oceans2020-refit"]
+PAPERS = ["aamas2020", "aamas2020-constant", "oceans2020", "oceans2020-refit"]
+PRESETS = sorted([*PAPERS, "bay", "offshore"])
+
+
+def needs_the_sea(name):
+    """Skip where a preset names files that cannot be read here."""
+    for library in ("pyproj", "netCDF4") if name == "offshore" else ():
+        pytest.importorskip(library, reason="gridded currents need pip install '.[maritime]'")
 
 
 def written(folder, text):
@@ -41,13 +49,27 @@ class TestPresets:
     def test_are_these(self):
         assert presets() == PRESETS
 
-    @pytest.mark.parametrize("name", PRESETS)
+    @pytest.mark.parametrize("name", PAPERS)
     def test_load_and_say_what_they_are(self, name):
         chosen = load(name)
         assert chosen.name == name
         assert chosen.agents == 50
         assert chosen.steps == 100_000
         assert chosen.description
+
+    @pytest.mark.parametrize(("name", "hours"), [("bay", 2), ("offshore", 6)])
+    def test_of_the_sea_can_be_exported_and_counted_in_money_and_power(self, name, hours):
+        needs_the_sea(name)
+        chosen = load(name)
+        assert (chosen.name, chosen.steps * chosen.time_step) == (name, 3600 * hours)
+        assert chosen.area.origin
+        assert chosen.sea.start
+        assert all(fleet.cost for fleet in chosen.fleets)
+        assert chosen.fleets[0].battery
+
+    def test_a_preset_that_names_files_can_be_saved_anywhere(self, tmp_path):
+        needs_the_sea("offshore")
+        assert load(written(tmp_path, preset_text("offshore"))) == load("offshore")
 
     def test_oceans2020_is_the_paper_as_printed(self):
         chosen = load("oceans2020")
@@ -81,6 +103,7 @@ class TestRoundTrip:
 
     @pytest.mark.parametrize("name", PRESETS)
     def test_of_presets(self, tmp_path, name):
+        needs_the_sea(name)
         chosen = load(name)
         again = load(written(tmp_path, to_toml(chosen)))
         assert again == chosen
@@ -337,14 +360,16 @@ class TestFiles:
 
 KEYWORDS = {
     "$defs", "$ref", "additionalProperties", "anyOf", "const", "default", "description", "discriminator", "enum",
-    "exclusiveMaximum", "exclusiveMinimum", "follows", "items", "maxItems", "maximum", "minItems", "minLength",
+    "exclusiveMaximum", "exclusiveMinimum", "follows", "format", "items", "maxItems", "maximum", "minItems", "minLength",
     "minimum", "oneOf", "pattern", "prefixItems", "properties", "required", "title", "type", "unit",
 }  # fmt: skip
 TYPES = {"object": dict, "array": (list, tuple), "string": str, "null": type(None), "boolean": bool}
 
 
 def accepts(schema, value, root):
-    """Whether a JSON Schema, of these keywords, accepts a value."""
+    """Whether a JSON Schema, of these keywords, accepts a value; a date of TOML is a text in JSON."""
+    if isinstance(value, datetime):
+        value = value.isoformat()
     assert schema.keys() <= KEYWORDS, schema.keys()
     if "$ref" in schema:
         schema = root["$defs"][schema["$ref"].removeprefix("#/$defs/")]

@@ -21,6 +21,8 @@ BAY = {
 }
 AT_A_WALL = {"strategy": "pursuit", "targets": [{"kind": "still", "radius": 5.0, "x": 1500.0, "y": 0.0}], "steps": 4000}
 
+AT_SEA = {"bay": "knn-pso follows the scenario", "offshore": "% of the area"}
+
 
 def notes(changes, **options):
     return shoal.check(bay(changes), **options)
@@ -31,9 +33,17 @@ def bay(changes):
 
 
 class TestPresets:
-    @pytest.mark.parametrize("name", shoal.presets())
+    @pytest.mark.parametrize("name", [name for name in shoal.presets() if name not in AT_SEA])
     def test_they_suit(self, name):
         assert shoal.check(name) == []
+
+    @pytest.mark.parametrize("name", AT_SEA)
+    def test_those_at_sea_say_what_follows_and_how_little_a_search_sees(self, name):
+        for library in ("pyproj", "scipy", "netCDF4"):
+            pytest.importorskip(library, reason="a sea needs pip install '.[maritime]'")
+        told = shoal.check(name)
+        assert len(told) == 1
+        assert AT_SEA[name] in told[0]
 
 
 class TestUnsuited:

@@ -16,6 +16,7 @@ def results(
     /,
     *,
     by: str | None = None,
+    metric: str = "time_on_target,xi,engaged",
     csv: Annotated[bool, Parameter(negative=())] = False,
     json_: Annotated[bool, Parameter(name="--json", negative=())] = False,
     parquet: Path | None = None,
@@ -29,6 +30,8 @@ def results(
     by
         Fields to group by, such as neighbors,fast; default all that vary. Fields left out are pooled: their
         differences then widen the interval.
+    metric
+        What the table shows, such as time_on_target,first_empty,cost; CSV, JSON and parquet hold all.
     csv
         Print every run as CSV instead.
     json_
@@ -40,6 +43,7 @@ def results(
     from shoal.core.files import check_file
     from shoal.experiments.results import aggregate, read_rows, to_csv, unknown_metrics, write_parquet
 
+    shown = _known(metric.split(","))
     kinds = [name for name, given in (("--csv", csv), ("--json", json_), ("--parquet", parquet)) if given]
     if len(kinds) > 1:
         raise ScenarioError(" and ".join(kinds), "are different outputs", "choose one of them")
@@ -64,7 +68,7 @@ def results(
         elif json_:
             write(json.dumps(groups) + "\n")
         else:
-            _print_groups(groups, by.split(",") if by else fields)
+            _print_groups(groups, by.split(",") if by else fields, shown)
 
 
 def plot(
@@ -115,24 +119,49 @@ def _tell_of(rows: list[dict[str, Any]]) -> None:
         note("correct it, then repeat the shoal sweep command with --retry-failed")
 
 
-def _print_groups(groups: list[dict[str, Any]], by: list[str]) -> None:
+def _known(metrics: list[str]) -> list[str]:
+    """The same names, if metrics have them.
+
+    Raises
+    ------
+    ScenarioError : one is none
+    """
+    from shoal.core.errors import ScenarioError, did_you_mean
+    from shoal.core.text import plain
+    from shoal.metrics.summary import METRICS
+
+    for name in metrics:
+        if name not in METRICS:
+            fix = f"{did_you_mean(name, METRICS)}there are: {', '.join(METRICS)}"
+            raise ScenarioError(f"--metric {plain(name)}", "is not a metric", fix)
+    return list(dict.fromkeys(metrics))
+
+
+def _print_groups(groups: list[dict[str, Any]], by: list[str], metrics: list[str]) -> None:
     from rich.table import Table
 
     from shoal.cli.console import results_console
+    from shoal.metrics.summary import METRICS
 
     if not groups:
         return
     table = Table(box=None, padding=(0, 2, 0, 0))
-    for name in (*by, "runs", "time on target", "Xi", "engaged"):
+    for name in (*by, "runs", *(_heading(METRICS[name]) for name in metrics)):
         table.add_column(name, justify="right", no_wrap=True)
     for group in groups:
-        cells = [_with_interval(group, name) for name in ("time_on_target", "xi", "engaged")]
+        cells = [_with_interval(group, name) for name in metrics]
         table.add_row(*(str(group[name]) for name in by), str(group["runs"]), *cells)
     results_console().print(table)
 
 
-def _with_interval(group: dict[str, Any], name: str) -> str:
-    from shoal.record.words import spread_text
+def _heading(metric: Any) -> str:
+    """What a metric is called, with its unit if it has one that its words do not say."""
+    return metric.words if metric.unit == "1" or metric.unit in metric.words.split() else f"{metric.words} [{metric.unit}]"
 
-    low, high = group[f"{name}_low"], group[f"{name}_high"]
-    return f"{group[name]:.4f}{spread_text(group[name], low, high, 4)}"
+
+def _with_interval(group: dict[str, Any], name: str) -> str:
+    from shoal.record.words import decimals_of, spread_text
+
+    mean, low, high = group[name], group[f"{name}_low"], group[f"{name}_high"]
+    decimals = decimals_of(mean)
+    return f"{mean:.{decimals}f}{spread_text(mean, low, high, decimals)}" if mean == mean else "none"

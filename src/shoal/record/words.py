@@ -7,12 +7,12 @@ from shoal.record.statistics import Estimate
 
 def mean_text(value: Estimate) -> str:
     """Mean: four decimals, one of large numbers; none where there is none."""
-    return f"{value.mean:.{_decimals(value)}f}" if math.isfinite(value.mean) else "none"
+    return f"{value.mean:.{decimals_of(value.mean)}f}" if math.isfinite(value.mean) else "none"
 
 
 def interval_text(value: Estimate) -> str:
     """Ends of the 95 % interval, or a dash."""
-    return " .. ".join(f"{end:.{_decimals(value)}f}" for end in value.ci95) if value.ci95 else "-"
+    return " .. ".join(f"{end:.{decimals_of(value.mean)}f}" for end in value.ci95) if value.ci95 else "-"
 
 
 def spread_text(mean: float, low: float | None, high: float | None, decimals: int) -> str:
@@ -27,5 +27,6 @@ def spread_text(mean: float, low: float | None, high: float | None, decimals: in
     return f" ± {(high - low) / 2:.{decimals}f}"
 
 
-def _decimals(value: Estimate) -> int:
-    return 4 if not abs(value.mean) >= 100 else 1
+def decimals_of(mean: float) -> int:
+    """How many decimals a mean and its interval are told with: four, one of large numbers."""
+    return 4 if not abs(mean) >= 100 else 1
