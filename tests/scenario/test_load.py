@@ -360,8 +360,8 @@ class TestFiles:
 
 KEYWORDS = {
     "$defs", "$ref", "additionalProperties", "anyOf", "const", "default", "description", "discriminator", "enum",
-    "exclusiveMaximum", "exclusiveMinimum", "follows", "format", "items", "maxItems", "maximum", "minItems", "minLength",
-    "minimum", "oneOf", "pattern", "prefixItems", "properties", "required", "title", "type", "unit",
+    "exclusiveMaximum", "exclusiveMinimum", "follows", "format", "items", "maxItems", "maximum", "minItems",
+    "minLength", "minimum", "oneOf", "pattern", "prefixItems", "properties", "required", "title", "type", "unit",
 }  # fmt: skip
 TYPES = {"object": dict, "array": (list, tuple), "string": str, "null": type(None), "boolean": bool}
 

@@ -156,7 +156,8 @@ def _print_groups(groups: list[dict[str, Any]], by: list[str], metrics: list[str
 
 def _heading(metric: Any) -> str:
     """What a metric is called, with its unit if it has one that its words do not say."""
-    return metric.words if metric.unit == "1" or metric.unit in metric.words.split() else f"{metric.words} [{metric.unit}]"
+    words: str = metric.words
+    return words if metric.unit == "1" or metric.unit in words.split() else f"{words} [{metric.unit}]"
 
 
 def _with_interval(group: dict[str, Any], name: str) -> str:
