@@ -52,14 +52,14 @@ dataset = xr.Dataset(
 fields = parcels.convert.copernicusmarine_to_sgrid(fields={"U": dataset["uo"], "V": dataset["vo"]})
 fieldset = parcels.FieldSet.from_sgrid_conventions(fields)
 start = given["start"]
-drifters = parcels.ParticleSet(fieldset, lon=start[:, 0], lat=start[:, 1], time=np.repeat(time[0], len(start)))
+drifters = parcels.ParticleSet(fieldset, x=start[:, 0], y=start[:, 1], t=np.repeat(time[0], len(start)))
 drifters.execute(
     parcels.kernels.AdvectionRK4,
     runtime=np.timedelta64(int(given["duration"]), "s"),
     dt=np.timedelta64(300, "s"),
     verbose_progress=False,
 )
-np.save(sys.argv[2], np.stack((drifters.lon, drifters.lat), axis=-1))
+np.save(sys.argv[2], np.stack((drifters.x, drifters.y), axis=-1))
 """
 
 
