@@ -90,9 +90,10 @@ def find_links(scratch, world, swarm, radio, effects, sea, number, first):
     if world.disturbed:
         deafen(links, effects, first, world.agents)
     if world.coastal:
-        hide_behind_land(links, scratch.sight, reports, swarm, sea.land, radio.range_square, first, world.agents)
+        hide_behind_land(links, scratch.sight, reports, swarm, sea.land, radio, first, world.agents)
     if radio.limited:
         limit_links(links, swarm, radio, first, world.agents, number)
+    if radio.limited or world.coastal:
         link_nearest(links, links.wanted, world.agents)
     else:
         link_nearest(links, swarm.neighbors[first:last], world.agents)
@@ -112,7 +113,7 @@ def settle(stage, number, first, batch, key):
 @kernel
 def settle_links(links, world, swarm, radio, first, key):
     """Settle ties, by how many are heard, and lose reports; return whether links changed."""
-    if radio.limited:
+    if radio.limited or world.coastal:
         changed = settle_ties(links, links.wanted, world.agents)
     else:
         changed = settle_ties(links, swarm.neighbors[first : first + links.reach.size], world.agents)
