@@ -13,7 +13,7 @@ from shoal.world.motion import add_drift, sail, sail_coast
 from shoal.world.placement import launch
 from shoal.world.radio import said
 from shoal.world.sea.sea import carry, span
-from shoal.world.sea.sight import Places, hide_behind_land
+from shoal.world.sea.sight import Speakers, hide_behind_land
 from shoal.world.targets.afloat import drift, stop_at_land
 
 
@@ -34,15 +34,11 @@ def hide(stage, number, first, batch, key):
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
     reports = said(radio, swarm, number)
-    speakers, range_square = Places(reports.x, reports.y), radio.range_square
-    if world.inexact:  # waves go by where all are, and who is out of range is hidden already
-        speakers, range_square = Places(swarm.x, swarm.y), _ANY
-    land = part(stage, SEA).land
-    hide_behind_land(scratch.links, scratch.sight, speakers, swarm, land, range_square, first, world.agents)
+    speakers = Speakers(reports.x, reports.y, radio.range_square, radio.delay == 0 and radio.interval == 1)
+    if world.inexact:  # waves go by where all are
+        speakers = Speakers(swarm.x, swarm.y, radio.range_square, True)
+    hide_behind_land(scratch.links, scratch.sight, speakers, swarm, part(stage, SEA).land, first, world.agents)
     return 0
-
-
-_ANY = 1e300  # [m^2]
 
 
 @phase

@@ -124,6 +124,7 @@ def find_links(stage, scratch, world, swarm, radio, effects, number, first):
         enter(phases.hide, stage, number, first, 0, 0)
     if radio.limited:
         limit_links(links, swarm, radio, first, world.agents, number, range_square)
+    if radio.limited or world.coastal:
         link_nearest(links, links.wanted, world.agents)
     else:
         link_nearest(links, swarm.neighbors[first:last], world.agents)
@@ -143,7 +144,7 @@ def settle(stage, number, first, batch, key):
 @kernel
 def settle_links(links, world, swarm, radio, run, number, first):
     """Settle ties, by how many are heard, and lose reports; return whether links changed."""
-    if radio.limited:
+    if radio.limited or world.coastal:
         changed = settle_ties(links, links.wanted, world.agents)
     else:
         changed = settle_ties(links, swarm.neighbors[first : first + links.reach.size], world.agents)

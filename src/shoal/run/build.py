@@ -125,11 +125,7 @@ def build_radio(scenario: Scenario, crew: Crew, world: World, lanes: int) -> Any
     radio = new_radio(
         lanes,
         crew.told,
-        limited=network.range is not None
-        or network.delay > 0
-        or scenario.report_steps > 1
-        or world.mortal
-        or world.coastal,
+        limited=network.range is not None or network.delay > 0 or scenario.report_steps > 1 or world.mortal,
         reach=network.range or math.inf,
         delay=network.delay,
         loss=network.loss,

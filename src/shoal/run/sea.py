@@ -10,7 +10,7 @@ from shoal.core.geodesy import Frame, near
 from shoal.scenario.at_sea import OpenSea
 from shoal.scenario.schema import Scenario
 from shoal.world.sea.field import DEGREE, GRID, Field, flow_field, moment, still_field, velocity
-from shoal.world.sea.land import Land, no_land
+from shoal.world.sea.land import Land, land_of, no_land
 from shoal.world.sea.sea import Sea, calm_sea
 
 _moment: Any = plain(moment)  # one number takes longer to hand to compiled code than to work out
@@ -35,11 +35,9 @@ def build_sea(scenario: Scenario, opened: OpenSea | None) -> Sea:
 
 
 def _land(raster: Any) -> Land:
-    if raster is None:
+    if raster is None or raster.distance.min() >= 0.0:
         return no_land()
-    return Land(
-        np.ascontiguousarray(raster.distance, np.float32), float(raster.x0), float(raster.y0), float(raster.cell)
-    )
+    return land_of(raster.distance, raster.x0, raster.y0, raster.cell)
 
 
 def _field(chosen: Any, read: Any, frame: Frame | None, half: float) -> Field:

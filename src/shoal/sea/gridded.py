@@ -18,7 +18,7 @@ from shoal.sea.fill import bridge_gaps, fill_fringe
 from shoal.sea.grid import Nodes, nodes_of, outside
 from shoal.sea.levels import fixed_levels
 from shoal.sea.opened import from_netcdf
-from shoal.sea.resample import metric_axis, spacing, weights_of
+from shoal.sea.resample import FINER, metric_axis, spacing, weights_of
 from shoal.sea.span import Span, span_of
 from shoal.sea.turn import angles_of, unstaggered
 from shoal.sea.window import Window, box, window_of
@@ -113,14 +113,13 @@ def _gridded(dataset: Any, path: Path, quantity: str, window: Window, begin: flo
         )
     if share:
         notes.append(f"Gaps in time, {share:.1%} of the values at sea, were bridged linearly ({path.name}).")
-    if nodes.straight:
-        axes, land = (nodes.lon, nodes.lat), unknown
-    else:
-        u, v, axes, unknown, land = _resampled(path, u, v, nodes, unknown, window)
+    fill_fringe(u, v, unknown)
+    axes, land = (nodes.lon, nodes.lat), unknown
+    if not nodes.straight:
+        u, v, axes, land = _resampled(path, u, v, nodes, unknown, window)
         notes.append(
             f"The grid of {path.name} was resampled to one of local meters, {np.diff(axes[0])[0]:.0f} m apart."
         )
-    fill_fringe(u, v, unknown)
     return Gridded(u, v, time, *axes, metric=not nodes.straight, land=land, notes=notes, digest=digest)
 
 
@@ -226,11 +225,13 @@ def _turn(
 
 def _resampled(
     path: Path, u: NDArray[np.float32], v: NDArray[np.float32], nodes: Nodes, unknown: Mask, window: Window
-) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[NDArray[np.float64], NDArray[np.float64]], Mask, Mask]:
-    """Components, axes, unknown nodes and land on a grid of local meters."""
+) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[NDArray[np.float64], NDArray[np.float64]], Mask]:
+    """Components, axes and land on a grid of local meters."""
     x, y = window.frame.local(nodes.lon, nodes.lat)
     x, y = np.where(np.isfinite(x), x, np.nan), np.where(np.isfinite(y), y, np.nan)
     cell = spacing(x, y)
+    most = MOST_VALUES / (len(u) * 4.0 * window.half_x * window.half_y / cell**2)
+    cell /= np.clip(np.sqrt(most), 1.0, FINER)
     axes = metric_axis(window.half_x, cell), metric_axis(window.half_y, cell)
     at_x, at_y = (each.ravel() for each in np.meshgrid(*axes))
     found = weights_of(x, y, at_x, at_y, unknown)
@@ -244,13 +245,12 @@ def _resampled(
     shape = len(axes[1]), len(axes[0])
     fields = []
     for values in (u, v):
-        flat = np.nan_to_num(values.reshape(len(values), -1), nan=0.0)
+        flat = values.reshape(len(values), -1)
         result = np.empty((len(values), len(at_x)), np.float32)
         for k, each in enumerate(flat):
             result[k] = (found.weights * each[found.corners]).sum(axis=0)
         fields.append(result.reshape(-1, *shape))
-    unknown = ~found.sea.reshape(shape)
-    return fields[0], fields[1], axes, unknown, unknown & found.covered.reshape(shape)
+    return fields[0], fields[1], axes, (found.covered & ~found.sea).reshape(shape)
 
 
 def _digest(u: NDArray[np.float32], v: NDArray[np.float32], nodes: Nodes, unix: NDArray[np.float64]) -> str:

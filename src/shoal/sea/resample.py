@@ -7,13 +7,14 @@ from numpy.typing import NDArray
 
 Numbers = NDArray[np.float64]
 
+FINER = 4  # times as fine as the grid that bends: a bilinear value of bilinear values is otherwise too smooth
 MOST_ITERATIONS = 60
 EXACT = 1e-6  # cells
 SEA = 0.5  # share of the four nodes around a place, by weight, that makes it sea
 
 
 class Weights(NamedTuple):
-    """Nodes around each place, (4, M) as flat indices, and their weights, which sum to 1 over the known ones."""
+    """Nodes around each place, (4, M) as flat indices, and their weights, which sum to 1."""
 
     corners: NDArray[np.intp]
     weights: Numbers
@@ -34,13 +35,13 @@ def spacing(x: Numbers, y: Numbers) -> float:
 
 
 def weights_of(x: Numbers, y: Numbers, at_x: Numbers, at_y: Numbers, unknown: NDArray[np.bool_]) -> Weights:
-    """Return bilinear weights of the nodes around places, unknown nodes left out.
+    """Return bilinear weights of the nodes around places.
 
     Parameters
     ----------
     x, y : (J, I) [m] of the nodes
     at_x, at_y : (M,) [m] of the places
-    unknown : (J, I) nodes without a value
+    unknown : (J, I) nodes without a value of their own; where they weigh more than half is no sea
     """
     column, row, covered = locate(x, y, at_x, at_y)
     i = np.clip(np.floor(column), 0, x.shape[1] - 2).astype(np.intp)
@@ -49,9 +50,8 @@ def weights_of(x: Numbers, y: Numbers, at_x: Numbers, at_y: Numbers, unknown: ND
     first = j * x.shape[1] + i
     corners = np.stack((first, first + 1, first + x.shape[1], first + x.shape[1] + 1))
     weights = np.stack(((1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t))
-    weights[unknown.ravel()[corners]] = 0.0
-    total = weights.sum(axis=0)
-    return Weights(corners, weights / np.where(total > 0.0, total, 1.0), covered, covered & (total >= SEA))
+    at_sea = np.where(unknown.ravel()[corners], 0.0, weights).sum(axis=0)
+    return Weights(corners, weights, covered, covered & (at_sea >= SEA))
 
 
 def locate(x: Numbers, y: Numbers, at_x: Numbers, at_y: Numbers) -> tuple[Numbers, Numbers, NDArray[np.bool_]]:

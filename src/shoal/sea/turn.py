@@ -33,23 +33,25 @@ def angles_of(dataset: Any, path: Path, nodes: Nodes) -> tuple[Angles, str]:
 
 
 def unstaggered(u: NDArray[np.float32], v: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Return both components at the centers of the cells: the mean of the two sides, or the one that is known.
+    """Return both components at the centers of the cells.
+
+    From the four sides in line, (9 (b + c) - a - d) / 16, where they are known: the mean of two alone would smooth
+    swirls of 12 cells by 3 %. Else the mean of both sides, or the one that is known.
 
     Parameters
     ----------
     u, v : (T, J, I - 1) and (T, J - 1, I), on the sides of cells whose centers are (J, I): an Arakawa C grid
     """
-    return _mean_of_sides(u, 2), _mean_of_sides(v, 1)
+    return _at_centers(u, 2), _at_centers(v, 1)
 
 
-def _mean_of_sides(values: NDArray[np.float32], axis: int) -> NDArray[np.float32]:
-    shape = list(values.shape)
-    shape[axis] += 1
-    total, count = np.zeros(shape, np.float32), np.zeros(shape, np.int8)
-    known = np.isfinite(values)
-    filled = np.where(known, values, np.float32(0.0))
-    for part in (slice(0, -1), slice(1, None)):
-        where = tuple(part if each == axis else slice(None) for each in range(3))
-        total[where] += filled
-        count[where] += known
-    return np.where(count > 0, total / np.maximum(count, 1), np.float32(np.nan)).astype(np.float32)
+def _at_centers(values: NDArray[np.float32], axis: int) -> NDArray[np.float32]:
+    ends = [(0, 0), (0, 0), (0, 0)]
+    ends[axis] = (2, 2)
+    padded = np.moveaxis(np.pad(values, ends, constant_values=np.nan), axis, 0)
+    a, b, c, d = padded[:-3], padded[1:-2], padded[2:-1], padded[3:]
+    one = np.where(np.isfinite(b), b, c)
+    two = np.where(np.isfinite(c), c, b)
+    mean = (one + two) / np.float32(2.0)
+    fine = mean + (mean - (a + d) / np.float32(2.0)) / np.float32(8.0)
+    return np.moveaxis(np.where(np.isfinite(fine), fine, mean), 0, axis)

@@ -16,7 +16,7 @@ _LOSS = 1 << 33  # a stream of keys that neither agents nor targets draw from
 class Network(NamedTuple):
     """What is chosen of the radio.
 
-    limited : whether any pair may be out of touch; range_square [m^2]
+    limited : whether any pair may be out of touch, whatever land hides; range_square [m^2]
     delay : steps that a report takes; interval : steps from one report of an agent to its next
     loss : chance that a linked pair misses a report
     adaptive : k follows the contact, from fewest to most of each agent (L,), with memory `patience` [s]

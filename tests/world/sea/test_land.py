@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from shoal.core.draws import split
-from shoal.world.sea.land import Land, afloat, anywhere_afloat, clearance, no_land, sailed, seaward
+from shoal.world.sea.land import afloat, anywhere_afloat, clearance, land_of, no_land, sailed, seaward
 from shoal.world.sea.sight import in_sight, look_along
 
 CELL = 5.0
@@ -19,7 +19,7 @@ def land(shape):
     start = -CELL * (SIDE - 1) / 2
     axis = start + CELL * np.arange(SIDE)
     x, y = np.meshgrid(axis, axis)
-    return Land(shape(x, y).astype(np.float32), start, start, CELL)
+    return land_of(shape(x, y), start, start, CELL)
 
 
 ISLAND = land(lambda x, y: np.hypot(x, y) - RADIUS)
@@ -93,13 +93,19 @@ class TestSight:
         hidden = 0
         for _ in range(300):
             ends = rng.uniform(-400.0, 400.0, (2, 2))
-            seen, slack = look_along(ISLAND, *ends.ravel())
+            seen, slack, _ = look_along(ISLAND, *ends.ravel())
             hidden += not seen
             for _ in range(4):
                 angle = rng.uniform(0.0, 2 * math.pi, 2)
                 moved = ends + 0.999 * slack * np.stack((np.cos(angle), np.sin(angle)), axis=-1)
                 assert look_along(ISLAND, *moved.ravel())[0] == seen
         assert 30 < hidden < 270
+
+    def test_both_see_each_other_or_neither(self):
+        rng = np.random.default_rng(6)
+        for _ in range(300):
+            a, b = rng.uniform(-400.0, 400.0, (2, 2))
+            assert look_along(ISLAND, *a, *b) == look_along(ISLAND, *b, *a)
 
     def test_slack_is_of_use(self):
         assert look_along(ISLAND, -300.0, 300.0, 300.0, 300.0)[1] > 50.0

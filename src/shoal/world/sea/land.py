@@ -10,6 +10,7 @@ from shoal.compiler.kernel import kernel
 from shoal.core.draws import split, uniform
 
 OPEN_WATER = 1e6  # [m] to the shore where there is none
+BLOCK = 8  # cells along a side of a block
 _TRIES = 64  # random places, before the nearest water is taken
 _REDRAWN = 1 << 22  # a purpose that nothing else draws for
 
@@ -18,9 +19,12 @@ class Land(NamedTuple):
     """Distance to the shore at the middles of square cells.
 
     distance : (J, I) [m], above 0 at sea, below on land; x, y : of the middle of cell (0, 0) [m]; cell : its side [m]
+    blocks : (J / BLOCK, I / BLOCK) the one nearest to 0 in a block of cells, 0 where it has both land and sea: so small
+        that it stays in a cache, which the raster does not
     """
 
     distance: npt.NDArray[np.float32]
+    blocks: npt.NDArray[np.float32]
     x: float
     y: float
     cell: float
@@ -28,7 +32,20 @@ class Land(NamedTuple):
 
 def no_land() -> Land:
     """Water everywhere."""
-    return Land(np.full((1, 1), OPEN_WATER, np.float32), 0.0, 0.0, 1.0)
+    return land_of(np.full((1, 1), OPEN_WATER), 0.0, 0.0, 1.0)
+
+
+def land_of(distance: npt.ArrayLike, x: float, y: float, cell: float) -> Land:
+    """Land of signed distances (J, I) [m] at the middles of cells of a side [m], the first of them at x, y [m]."""
+    distance = np.ascontiguousarray(distance, np.float32)
+    least, most = distance, distance
+    for axis in (0, 1):  # a place is between the middles of two cells: blocks share those at their edges
+        starts = np.arange(0, max(distance.shape[axis] - 1, 1), BLOCK)
+        ends = np.minimum(starts + BLOCK, distance.shape[axis] - 1)
+        least = np.minimum(np.minimum.reduceat(least, starts, axis), least.take(ends, axis))
+        most = np.maximum(np.maximum.reduceat(most, starts, axis), most.take(ends, axis))
+    blocks = np.where(least > 0.0, least, np.where(most < 0.0, most, np.float32(0.0)))
+    return Land(distance, blocks, float(x), float(y), float(cell))
 
 
 @kernel
@@ -39,10 +56,23 @@ def clearance(land, x, y):
     b = min(max((y - land.y) / land.cell, 0.0), rows - 1.0)
     i = min(int(a), columns - 2) if columns > 1 else 0
     j = min(int(b), rows - 2) if rows > 1 else 0
-    right, up = min(i + 1, columns - 1), min(j + 1, rows - 1)
-    low = land.distance[j, i] + (a - i) * (land.distance[j, right] - land.distance[j, i])
-    high = land.distance[up, i] + (a - i) * (land.distance[up, right] - land.distance[up, i])
-    return low + (b - j) * (high - low)
+    share, rise = a - i, b - j
+    left, right = np.uintp(i), np.uintp(min(i + 1, columns - 1))
+    down, up = np.uintp(j), np.uintp(min(j + 1, rows - 1))
+    low = land.distance[down, left] + share * (land.distance[down, right] - land.distance[down, left])
+    high = land.distance[up, left] + share * (land.distance[up, right] - land.distance[up, left])
+    return low + rise * (high - low)
+
+
+@kernel
+def room(land, x, y):
+    """What the distance to the shore is at least [m], or how far it is below 0 at least: roughly, where it is long."""
+    block = BLOCK * land.cell
+    rows, columns = land.blocks.shape
+    i = min(max(int((x - land.x) / block), 0), columns - 1)
+    j = min(max(int((y - land.y) / block), 0), rows - 1)
+    rough = land.blocks[j, i]
+    return float(rough) if abs(rough) > block else clearance(land, x, y)
 
 
 @kernel

@@ -8,32 +8,47 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from shoal.compiler.kernel import kernel
 from shoal.core.agents import Floats, aligned_zeros
-from shoal.world.sea.land import clearance
+from shoal.world.sea.land import clearance, room
 
 _STEEPEST = math.sqrt(2.0)  # how fast the distance between the middles of cells may change, at most
-_SHORTEST = 0.5  # step along a line, in cells
-_SURE = 0.36  # cells that a line is below the shore so that no step leaps over it: more than SHORTEST / STEEPEST
+_SHORTEST = 0.1  # step along a line, in cells
+_SURE = 0.08  # cells that a line is below the shore so that no step leaps over it: more than SHORTEST / STEEPEST
+_DEEP = 4.0  # cells below the shore: a line that is there is hidden for long enough
+_FAR = 16.0  # cells between places along a line that are tried first
+_TRIES = 32  # of them, at most
 
 
-class Places(NamedTuple):
-    """Where speakers are, as waves go, (N,) each [m]."""
+class Speakers(NamedTuple):
+    """Where N speakers are, as waves go: x, y (N,) [m]; the square of the range of a radio [m^2].
+
+    mutual : they are where they listen, too: both see each other, or neither does
+    """
 
     x: Floats
     y: Floats
+    range_square: float
+    mutual: bool
 
 
 class Sight(NamedTuple):
     """What is known of the pairs of N speakers and L listeners.
 
     until : (N, L) what `travelled` may grow to before a pair must be looked at again [m]; below 0: land hides it
+    soonest : (N,) the least of them of each speaker [m]
+    where : (N, L) how far along the way was land, 0 to 1: it is looked for there first
+    hidden : (L,) how many speakers land hides from a listener
     travelled : (1,) sum over the steps of the longest way that anybody went [m], and some
     speaker_x, speaker_y : (N,), listener_x, listener_y : (L,) where they were last [m]
     """
 
     until: Floats
+    soonest: Floats
+    where: Floats
+    hidden: npt.NDArray[np.int64]
     travelled: Floats
     speaker_x: Floats
     speaker_y: Floats
@@ -46,77 +61,110 @@ def new_sight(agents: int, lanes: int) -> Sight:
     until = aligned_zeros(agents * lanes).reshape((agents, lanes))
     np.fill_diagonal(until[:, :agents], np.inf)
     return Sight(
-        until,
-        np.ones(1),
-        np.zeros(agents),
-        np.zeros(agents),
-        np.zeros(lanes if agents else 0),
-        np.zeros(lanes if agents else 0),
+        until=until,
+        soonest=np.zeros(agents),
+        where=np.zeros(until.shape),
+        hidden=np.zeros(lanes, np.int64),
+        travelled=np.ones(1),
+        speaker_x=np.zeros(agents),
+        speaker_y=np.zeros(agents),
+        listener_x=np.zeros(lanes),
+        listener_y=np.zeros(lanes),
     )
 
 
 @kernel
 def in_sight(land, x, y, other_x, other_y):
-    """Whether no land lies between two places [m]. Cheap where both are far from the shore."""
-    seen, _ = look_along(land, x, y, other_x, other_y)
+    """Whether no land lies between two places [m]; the same both ways. Cheap where both are far from the shore."""
+    seen, _, _ = look_along(land, x, y, other_x, other_y)
     return seen
 
 
 @kernel
 def look_along(land, x, y, other_x, other_y):
-    """Whether no land lies between two places, and how far both may move, at least, before that may change [m]."""
+    """Look from the western of two places to the other.
+
+    Returns
+    -------
+    whether no land lies between; how far both may move, at least, before that may change [m]; how far along the way is
+    the deepest land that was found, 0 to 1
+    """
+    if other_x < x or (other_x == x and other_y < y):
+        x, y, other_x, other_y = other_x, other_y, x, y
     dx = other_x - x
     dy = other_y - y
     distance = math.sqrt(dx * dx + dy * dy)
     free = clearance(land, x, y)
     slack = 0.5 * (free + clearance(land, other_x, other_y) - _STEEPEST * distance)
     if slack > 0.0:
-        return True, slack / _STEEPEST
-    slack = max(free, 0.0)
+        return True, slack / _STEEPEST, 0.0
     deepest = 0.0
-    gone = 0.0
+    there = 0.0
+    tries = min(int(distance / (_FAR * land.cell)), _TRIES)
+    for number in range(tries):  # most of what is hidden is behind much land
+        share = (number + 0.5) / tries
+        after = room(land, x + share * dx, y + share * dy)
+        if after < deepest:
+            deepest = after
+            there = share
+    slack = max(free, 0.0)
+    gone = 0.0 if deepest >= -_DEEP * land.cell else distance
     while gone < distance:
         step = min(max(abs(free) / _STEEPEST, _SHORTEST * land.cell), distance - gone)
         gone += step
         share = gone / distance
-        after = clearance(land, x + share * dx, y + share * dy)
-        if deepest < 0.0 <= after:
-            break  # out of the first land on the way
-        deepest = min(deepest, after)
+        after = room(land, x + share * dx, y + share * dy)
+        if after < deepest:
+            deepest = after
+            there = share
+            if deepest < -_DEEP * land.cell:
+                break
         slack = min(slack, 0.5 * (free + after - _STEEPEST * step))
         free = after
     if deepest < 0.0:
-        return False, max(-deepest - _SURE * land.cell, 0.0) / _STEEPEST
-    return True, max(slack, 0.0) / _STEEPEST
+        return False, max(-deepest - _SURE * land.cell, 0.0) / _STEEPEST, there
+    return True, max(slack, 0.0) / _STEEPEST, 0.0
 
 
 @kernel
-def hide_behind_land(links, sight, speakers, swarm, land, range_square, first, agents):
-    """Unlink speakers, at Places, that land hides from the agents from `first` on."""
-    square = links.square
+def _still_hidden(land, x, y, other_x, other_y, share):
+    """How far both may move before a place on the way from the western to the other is no longer on land [m]."""
+    if other_x < x or (other_x == x and other_y < y):
+        x, y, other_x, other_y = other_x, other_y, x, y
+    depth = -room(land, x + share * (other_x - x), y + share * (other_y - y))
+    return (depth - _SURE * land.cell) / _STEEPEST
+
+
+@kernel
+def hide_behind_land(links, sight, speakers, swarm, land, first, agents):
+    """Unlink speakers that land hides from the agents from `first` on; links.wanted becomes k, or all that are left."""
+    square, hidden, until = links.square, sight.hidden, sight.until
     lanes = min(links.reach.size, agents - first)
-    if sight.until.size == 0:  # one listener after the other: what is known would be another's
-        for i in range(lanes):
-            for j in range(agents):
-                if square[j, i] <= range_square and not in_sight(
-                    land, swarm.x[first + i], swarm.y[first + i], speakers.x[j], speakers.y[j]
-                ):
-                    square[j, i] = np.inf
-        return
-    sight.travelled[0] += _farthest(sight, speakers, swarm, lanes, agents)
-    travelled = sight.travelled[0]
-    for j in range(agents):
-        unsure = False
-        for i in range(lanes):
-            until = sight.until[j, i]
-            unsure |= abs(until) <= travelled
-            square[j, i] = np.inf if until < -travelled else square[j, i]
-        if unsure:
+    if until.size == 0:  # one listener after the other: what is known would be another's
+        _look_at_all(square, hidden, speakers, swarm, land, first, lanes, agents)
+    else:
+        sight.travelled[0] += _farthest(sight, speakers, swarm, lanes, agents)
+        for j in range(agents):
+            if sight.soonest[j] < sight.travelled[0]:
+                _look_again(sight, speakers, swarm, land, j, j if speakers.mutual else lanes)
+        for j in range(agents):
             for i in range(lanes):
-                if abs(sight.until[j, i]) <= travelled and not _look_again(
-                    sight, speakers, swarm, land, range_square, j, i
-                ):
-                    square[j, i] = np.inf
+                square[j, i] = np.inf if until[j, i] < 0.0 else square[j, i]
+    for i in range(links.wanted.size):
+        links.wanted[i] = min(swarm.neighbors[first + i], agents - 1 - hidden[i]) if i < lanes else 0
+
+
+@kernel
+def _look_at_all(square, hidden, speakers, swarm, land, first, lanes, agents):
+    """Look at every pair in range."""
+    for i in range(lanes):
+        hidden[i] = 0
+        x, y = swarm.x[first + i], swarm.y[first + i]
+        for j in range(agents):
+            near = square[j, i] <= speakers.range_square
+            if near and not in_sight(land, x, y, speakers.x[j], speakers.y[j]):
+                square[j, i] = np.inf
+                hidden[i] += 1
 
 
 @kernel
@@ -135,15 +183,41 @@ def _farthest(sight, speakers, swarm, lanes, agents):
 
 
 @kernel
-def _look_again(sight, speakers, swarm, land, range_square, j, i):
-    """Whether listener i sees speaker j; a pair out of range is not looked at before it may be in range."""
+def _look_again(sight, speakers, swarm, land, j, lanes):
+    """Look which of the first listeners see speaker j, where that may have changed; if mutual, it sees them, too.
+
+    A pair out of range is not looked at before it may be in range.
+    """
+    range_square = speakers.range_square
     travelled = sight.travelled[0]
-    dx = swarm.x[i] - speakers.x[j]
-    dy = swarm.y[i] - speakers.y[j]
-    square = dx * dx + dy * dy
-    if square > range_square:
-        sight.until[j, i] = travelled + 0.5 * (math.sqrt(square) - math.sqrt(range_square))
-        return True
-    seen, slack = look_along(land, swarm.x[i], swarm.y[i], speakers.x[j], speakers.y[j])
-    sight.until[j, i] = travelled + slack if seen else -(travelled + slack)
-    return seen
+    until, hidden = sight.until, sight.hidden
+    soonest = np.inf
+    for i in range(lanes):
+        if abs(until[j, i]) < travelled:
+            before = 1 if until[j, i] < 0.0 else 0
+            dx, dy = swarm.x[i] - speakers.x[j], swarm.y[i] - speakers.y[j]
+            square = dx * dx + dy * dy
+            if square > range_square:
+                until[j, i] = travelled + 0.5 * (math.sqrt(square) - math.sqrt(range_square))
+            else:
+                until[j, i] = _looked(sight, speakers, swarm, land, j, i)
+            change = (1 if until[j, i] < 0.0 else 0) - before
+            hidden[i] += change
+            if speakers.mutual:
+                until[i, j] = until[j, i]
+                hidden[j] += change
+        soonest = min(soonest, abs(until[j, i]))
+    sight.soonest[j] = soonest
+
+
+@kernel
+def _looked(sight, speakers, swarm, land, j, i):
+    """What `until` is of a pair that is looked at now: first where land was last time."""
+    x, y, other_x, other_y = swarm.x[i], swarm.y[i], speakers.x[j], speakers.y[j]
+    travelled = sight.travelled[0]
+    if sight.where[j, i] > 0.0:
+        slack = _still_hidden(land, x, y, other_x, other_y, sight.where[j, i])
+        if slack > 0.0:
+            return -(travelled + slack)
+    seen, slack, sight.where[j, i] = look_along(land, x, y, other_x, other_y)
+    return travelled + slack if seen else -(travelled + slack)
