@@ -1,8 +1,8 @@
 """Drifters by a method of its own: Runge-Kutta of fourth order on WGS 84, on the grid that a file has. NumPy alone.
 
-Nothing of shoal is in it, so that shoal's drift can be judged by it (judge_drift.py, tests/sea/test_judge.py). A place is
-a column and a row of the grid, with fractions: velocities are bilinear in both, and so are longitude and latitude, whose
-slopes turn degrees a second into columns and rows a second. So one method serves grids that are straight and that bend.
+Nothing of shoal is in it, so that shoal's drift can be judged by it (judge_drift.py, tests/sea/test_judge.py). A place
+is a column and a row of the grid, with fractions: velocities are bilinear in both, and so are longitude and latitude,
+whose slopes turn degrees a second into columns and rows a second. So one method serves straight grids and bent ones.
 """
 
 from pathlib import Path

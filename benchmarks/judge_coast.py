@@ -1,4 +1,4 @@
-"""Whether anybody ever gets onto land: ten million agent-steps at full speed along the coast of Norway, in its currents.
+"""Whether anybody ever gets onto land: ten million agent-steps at full speed along Norway, in its currents.
 
     python benchmarks/judge_coast.py [--data ../shared/data]
 

@@ -1,4 +1,4 @@
-"""Whether buoys drift where they should: 100 of them without a will, against Runge-Kutta on WGS 84, and against Parcels.
+"""Whether buoys drift where they should: 100 without a will, against Runge-Kutta on WGS 84, and against Parcels.
 
     python benchmarks/judge_drift.py [--data ../shared/data] [--parcels PYTHON]
 
@@ -198,7 +198,7 @@ def verdict(name: str, off: Numbers, median: float, worst: float) -> bool:
 
 
 def drifters(case: Case, duration: float, count: int = BUOYS) -> tuple[Numbers, Numbers, Numbers]:
-    """Drifters that stay in the arena, among nodes with values: starts, places on the way and at the end, (P, 2) [deg]."""
+    """Drifters that stay in the arena, among nodes with values: starts, places on the way and at the end [deg]."""
     grid = case.grid
     local = pyproj.Proj(proj="aeqd", ellps="WGS84", lon_0=case.origin[0], lat_0=case.origin[1])
     chance = np.random.default_rng(1)

@@ -8,12 +8,12 @@ pytest.importorskip("pyproj")
 
 shapely = pytest.importorskip("shapely")
 
-from drifters import bent, straight, write
-from judge_drift import EPOCH, Case, apart, buoys, drifters
+from drifters import bent, straight, write  # noqa: E402
+from judge_drift import EPOCH, Case, apart, buoys, drifters  # noqa: E402
 
-from sea_files import axis
-from shoal.run.simulation import Simulation
-from shoal.scenario.load import load
+from sea_files import axis  # noqa: E402
+from shoal.run.simulation import Simulation  # noqa: E402
+from shoal.scenario.load import load  # noqa: E402
 
 DEGREE = 1.0 / 120.0
 
