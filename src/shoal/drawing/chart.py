@@ -124,7 +124,7 @@ def draw_graticule(axes: "Axes", area: Area) -> None:
         inside = (np.abs(x) <= half_x) & (np.abs(y) <= half_y)
         axes.plot(x[inside], y[inside], **style)
         bottom = float(np.interp(-half_y, y, x))
-        if abs(bottom) < 0.9 * half_x:
+        if -0.55 * half_x < bottom < 0.8 * half_x:  # beside the scale bar
             axes.annotate(degrees_text(degree, "EW"), (bottom, -half_y), (2, 2), ha="left", va="bottom", **labels)
     for degree in _round_degrees(lat.min(), lat.max()):
         x, y = frame.local(np.linspace(lon.min(), lon.max(), 41), np.full(41, degree))
