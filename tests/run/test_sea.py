@@ -8,6 +8,7 @@ import pytest
 
 from shoal.record.frames import who_hears_whom
 from shoal.run.simulation import Simulation
+from shoal.scenario.briefing import briefing
 from shoal.scenario.load import load
 from shoal.world.sea.land import clearance
 from shoal.world.sea.sight import in_sight
@@ -158,6 +159,8 @@ class TestLand:
         assert min(clearance(run._sea.shore, *place) for place in places) > 0.0
         apart = np.sort(np.hypot(*(places[:, None] - places[None]).transpose(2, 0, 1)), axis=1)[:, 1]
         assert apart.min() > 0.5 * apart.mean()
+        told = briefing(run.scenario, 31)
+        assert (told.charted, told.station_x, told.station_y) == (True, *places[31])  # a buoy of its own, too
         run.advance(400)
         left = np.hypot(run.swarm.x[:50] - places[:, 0], run.swarm.y[:50] - places[:, 1])
         assert np.median(left) < 1.0

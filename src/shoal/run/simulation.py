@@ -24,12 +24,12 @@ from shoal.run.build import build_nature, build_radio, build_swarm, build_target
 from shoal.run.facts import roster_of
 from shoal.run.sea import build_sea
 from shoal.run.state import State, arrays_of, read_only, state_of
-from shoal.run.stations import stations
 from shoal.scenario.assumptions import assumptions
 from shoal.scenario.at_sea import open_sea
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
 from shoal.scenario.on_track import open_tracks
+from shoal.scenario.stations import stations
 from shoal.world.placement import PLACES
 
 _set_out: Any = set_out  # kernels have no types that mypy sees
@@ -76,8 +76,8 @@ class Simulation:
         self._sea = build_sea(scenario, opened)
         self.world = build_world(scenario, self._sea)
         self._swarm = build_swarm(scenario, self.crew)
-        if self.world.coastal:
-            places = stations(self._sea.shore, scenario)
+        if opened and opened.shore is not None:
+            places = stations(scenario, opened.shore)
             self._swarm.station_x[: scenario.agents], self._swarm.station_y[: scenario.agents] = places.T
         self._radio = build_radio(scenario, self.crew, self.world, self._swarm.x.size)
         self._targets, self.tracks = build_targets(scenario, tracks)

@@ -6,9 +6,11 @@ import numpy as np
 
 from shoal.core.errors import ScenarioError
 from shoal.core.messages import Briefing
+from shoal.scenario.at_sea import open_sea
 from shoal.scenario.crew import Crew
 from shoal.scenario.load import Source, load
 from shoal.scenario.schema import Scenario
+from shoal.scenario.stations import stations
 
 
 def briefing(scenario: Source, id: int) -> Briefing:
@@ -22,10 +24,14 @@ def briefing(scenario: Source, id: int) -> Briefing:
     Raises
     ------
     ScenarioError : there is no such agent
+    SeaError : a file of its sea cannot be used
     """
     scenario = load(scenario)
     fleet = scenario.fleets[fleet_of(scenario, id)]
     ends = shares(scenario)
+    opened = open_sea(scenario)
+    shore = opened.shore if opened else None
+    x, y = stations(scenario, shore)[id] if shore is not None else (0.0, 0.0)
     return Briefing(
         agents=scenario.agents,
         half_x=scenario.area.width / 2 - scenario.area.agent_margin,
@@ -33,6 +39,9 @@ def briefing(scenario: Source, id: int) -> Briefing:
         reach=fleet.sensor_radius + min(target.radius for target in scenario.targets),
         share_begin=float(ends[id - 1]) if id > 0 else 0.0,
         share_end=float(ends[id]),
+        charted=shore is not None,
+        station_x=float(x),
+        station_y=float(y),
     )
 
 
