@@ -35,6 +35,14 @@ class TestClearance:
     def test_holds_still_beyond_the_raster(self):
         assert clearance(COAST, 0.0, -9000.0) == clearance(COAST, 0.0, -500.0)
 
+    def test_room_is_never_longer(self):
+        rng = np.random.default_rng(7)
+        for x, y in rng.uniform(-520.0, 520.0, (500, 2)):
+            rough, right = room(COAST, x, y), clearance(COAST, x, y)
+            assert rough * right >= 0.0
+            assert abs(rough) <= abs(right)
+        assert room(COAST, 0.0, -400.0) > 400.0
+
     def test_open_water(self):
         assert clearance(no_land(), 1e5, -1e5) == 1e6
 
