@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from shoal.core.draws import split
-from shoal.world.sea.land import afloat, anywhere_afloat, clearance, land_of, no_land, sailed, seaward
+from shoal.world.sea.land import afloat, anywhere_afloat, clearance, land_of, no_land, room, sailed, seaward
 from shoal.world.sea.sight import in_sight, look_along
 
 CELL = 5.0
