@@ -2,7 +2,8 @@
 
 Nothing of shoal is in it, so that shoal's drift can be judged by it (judge_drift.py, tests/sea/test_judge.py). A place
 is a column and a row of the grid, with fractions: velocities are bilinear in both, and so are longitude and latitude,
-whose slopes turn degrees a second into columns and rows a second. So one method serves straight grids and bent ones.
+whose slopes turn degrees a second into columns and rows a second. So one method serves grids that are straight and
+grids that bend.
 """
 
 from pathlib import Path
@@ -112,9 +113,7 @@ def _open_cells(grid: Grid) -> NDArray[np.bool_]:
 # --- grids that are made up, and files of them ---
 
 
-def swirls(
-    x: Numbers, y: Numbers, time: float, shortest: float, speed: float, seed: int = 1
-) -> tuple[Numbers, Numbers]:
+def swirls(x: Numbers, y: Numbers, time: float, shortest: float, speed: float) -> tuple[Numbers, Numbers]:
     """A flow without sources [m/s] at places [m] and a time [s]: ten waves that travel, and a tide.
 
     Parameters
@@ -122,7 +121,7 @@ def swirls(
     shortest : wavelength [m]; the longest is four times that
     speed : of the sum of the waves [m/s], about
     """
-    chance = np.random.default_rng(seed)
+    chance = np.random.default_rng(1)
     u, v = np.full_like(x, 0.2), np.full_like(x, 0.15 * np.sin(2 * np.pi * time / 44712.0))
     for _ in range(10):
         heading, phase = 2 * np.pi * chance.random(2)
@@ -143,16 +142,15 @@ def straight(lon: Numbers, lat: Numbers, times: int, shortest: float, speed: flo
     return Grid(*np.meshgrid(lon, lat), time, u, v)
 
 
-def bent(
-    middle: tuple[float, float], cells: int, cell: float, times: int, turn: float = 0.6, bend: float = 0.3
-) -> Grid:
-    """Hourly swirls along a grid as ROMS has it: turned, its rows bending [rad], velocities on the sides of its cells.
+def bent(middle: tuple[float, float], cells: int, cell: float, times: int) -> Grid:
+    """Hourly swirls along a grid as ROMS has it: turned, its rows bend, velocities are on the sides of its cells.
 
     Parameters
     ----------
     middle : longitude and latitude [deg]
     cells : rows and columns; cell : between them [m]
     """
+    turn, bend = 0.6, 0.3  # [rad]
     i, j = np.meshgrid(np.arange(cells) - cells / 2, np.arange(cells) - cells / 2)
     a, r = bend * i / cells, cell * (cells / bend + j)  # rings around a point far below
     x, y = r * np.sin(a), r * np.cos(a) - cell * cells / bend

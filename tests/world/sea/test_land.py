@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from shoal.core.draws import split
-from shoal.world.sea.land import afloat, anywhere_afloat, clearance, land_of, no_land, sailed, seaward
+from shoal.world.sea.land import afloat, anywhere_afloat, clearance, land_of, no_land, room, sailed, seaward
 from shoal.world.sea.sight import in_sight, look_along
 
 CELL = 5.0
@@ -34,6 +34,14 @@ class TestClearance:
 
     def test_holds_still_beyond_the_raster(self):
         assert clearance(COAST, 0.0, -9000.0) == clearance(COAST, 0.0, -500.0)
+
+    def test_room_is_never_longer(self):
+        rng = np.random.default_rng(7)
+        for x, y in rng.uniform(-520.0, 520.0, (500, 2)):
+            rough, right = room(COAST, x, y), clearance(COAST, x, y)
+            assert rough * right >= 0.0
+            assert abs(rough) <= abs(right)
+        assert room(COAST, 0.0, -400.0) > 400.0
 
     def test_open_water(self):
         assert clearance(no_land(), 1e5, -1e5) == 1e6
