@@ -319,7 +319,10 @@ class TestProcess:
         )  # fmt: skip
         wait_until(process, (tmp_path / "r").exists)
         os.killpg(process.pid, signal.SIGINT)
-        _, said = process.communicate(timeout=100)
+        try:
+            _, said = process.communicate(timeout=100)
+        finally:
+            process.kill()
         assert process.returncode == 130
         assert "interrupted; nothing was left half-written" in said
         assert "Traceback" not in said

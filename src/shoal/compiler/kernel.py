@@ -37,9 +37,11 @@ try:
 
     from shoal.compiler.inlined import InlinedCompiler
     from shoal.compiler.inner import FLAGS, INNER_FLAGS, Inner
+    from shoal.compiler.interrupts import wait_for_the_compiler
 
     # Fleets with strategies of their own share memory records, which numba passes by their first fields and warns of.
     warnings.filterwarnings("ignore", message="Record", category=NumbaExperimentalFeatureWarning)
+    wait_for_the_compiler()
 except ModuleNotFoundError as missing:
     if missing.name != "numba":
         raise

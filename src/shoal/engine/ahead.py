@@ -7,6 +7,7 @@ to the last; what one finds in the cache it does not compile. At most the one th
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Sequence
 from typing import Any
 
@@ -14,6 +15,7 @@ from shoal.compiler.kernel import cache_folder, compiles, why_uncached
 from shoal.compiler.phase import Phase
 
 _BUSY = "compiling-ahead"  # in the cache, while such a process runs
+LONGEST = 900.0  # [s] that such a process may take
 FEW = 3  # phases that this process compiles alone
 _CODE = "from shoal.engine.ahead import compile_names; compile_names({names!r})"
 
@@ -31,8 +33,11 @@ def compile_ahead(phases: Sequence[Phase]) -> None:
     missing = [each.function.__name__ for each in phases if f"{_home(each)}.{each.function.__name__}" not in kept]
     if len(missing) <= FEW:
         return
+    busy = cache_folder() / _BUSY
     try:
-        (cache_folder() / _BUSY).touch(exist_ok=False)  # one such process is enough, whoever asks
+        if busy.exists() and time.time() - busy.stat().st_mtime > LONGEST:
+            busy.unlink(missing_ok=True)  # of one that was killed
+        busy.touch(exist_ok=False)  # one such process is enough, whoever asks
     except OSError:
         return
     code = _CODE.format(names=missing[::-1])

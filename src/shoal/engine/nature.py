@@ -63,10 +63,11 @@ def sail_all(stage, number, first, batch, key):
 def _sail(swarm, effects, sea, scratch, world, number, first, last):
     time_step = world.time_step
     drift_x, drift_y = swarm.drift_x, swarm.drift_y
-    for i in range(first, last):
-        drift_x[i] = 0.0
-        drift_y[i] = 0.0
-    if world.flowing:
+    if not world.flowing:
+        for i in range(first, last):
+            drift_x[i] = 0.0
+            drift_y[i] = 0.0
+    else:
         carry(sea, swarm, scratch, world.windy, span(sea, number, time_step), first, last)
     if world.disturbed:
         add_drift(swarm, effects, time_step, first, last)

@@ -7,7 +7,7 @@ from shoal.compiler.kernel import kernel
 from shoal.world.sea.field import Field, Moment, moment, still_field, velocities, velocity
 from shoal.world.sea.land import Land, no_land
 
-LONG_STEP = 10.0  # [s]: from here on the drift is that at the middle of the step
+LONG_STEP = 10.0  # [s]: above, the drift at the start of a step says where its middle is, below that of the last
 
 
 class Sea(NamedTuple):
@@ -62,17 +62,16 @@ def span(sea, number, time_step):
 
 @kernel
 def carried(sea, x, y, own_x, own_y, span, leeway):
-    """How far water and wind carry something in a step, a Span, along x and y [m].
+    """How far water and wind carry something in a step, a Span, along x and y [m], by the midpoint rule.
 
-    x, y : where it is [m]; own_x, own_y : its own velocity [m/s]. Where the step is long, by the velocity where it is
-    half a step later (the midpoint rule); else by that at the start.
+    x, y : where it is [m]; own_x, own_y : its own velocity [m/s]. What counts is the velocity half a step later, where
+    it is then.
     """
     drift_x, drift_y = drift_velocity(sea, x, y, span.now, leeway)
-    if span.time_step > LONG_STEP:
-        half = 0.5 * span.time_step
-        x += half * (own_x + drift_x)
-        y += half * (own_y + drift_y)
-        drift_x, drift_y = drift_velocity(sea, x, y, span.later, leeway)
+    half = 0.5 * span.time_step
+    x += half * (own_x + drift_x)
+    y += half * (own_y + drift_y)
+    drift_x, drift_y = drift_velocity(sea, x, y, span.later, leeway)
     return drift_x * span.time_step, drift_y * span.time_step
 
 
@@ -99,17 +98,21 @@ def leeway_velocity(sea, x, y, now, leeway):
 
 @kernel
 def carry(sea, swarm, scratch, windy, span, first, last):
-    """Set the drift of agents first..last to what water and wind add to their velocities [m/s], as `carried`."""
+    """Set the drift of agents first..last to what water and wind add to their velocities [m/s], by the midpoint rule.
+
+    Where they are half a step later follows from the drift of the last step, which is as good, of second order, and
+    free; where steps are long, from that at the start of this one.
+    """
     x, y = scratch.a, scratch.b
-    for i in range(first, last):
-        x[i], y[i] = swarm.x[i], swarm.y[i]
-    _drift_of_all(sea, swarm, scratch, windy, span.now, first, last)
     if span.time_step > LONG_STEP:
-        half = 0.5 * span.time_step
         for i in range(first, last):
-            x[i] += half * (swarm.command_x[i] + swarm.drift_x[i])
-            y[i] += half * (swarm.command_y[i] + swarm.drift_y[i])
-        _drift_of_all(sea, swarm, scratch, windy, span.later, first, last)
+            x[i], y[i] = swarm.x[i], swarm.y[i]
+        _drift_of_all(sea, swarm, scratch, windy, span.now, first, last)
+    half = 0.5 * span.time_step
+    for i in range(first, last):
+        x[i] = swarm.x[i] + half * (swarm.command_x[i] + swarm.drift_x[i])
+        y[i] = swarm.y[i] + half * (swarm.command_y[i] + swarm.drift_y[i])
+    _drift_of_all(sea, swarm, scratch, windy, span.later, first, last)
 
 
 @kernel

@@ -1,0 +1,60 @@
+"""Ctrl-C and the like wait until a function is compiled: an exception amid numba's own work may be lost, or end Python.
+
+They wait some seconds at most, for the one function, and are heard then.
+"""
+
+import signal
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from numba.core import event
+
+_HEARD = ("SIGINT", "SIGTERM", "SIGHUP")
+_LISTENER: Any = event.Listener  # numba has no types that mypy sees
+_register: Any = event.register
+
+
+class _Deferring(_LISTENER):  # type: ignore[misc]
+    """Listens when numba takes and releases the lock under which it compiles."""
+
+    def __init__(self) -> None:
+        self.depth = 0
+        self.waiting: int | None = None
+        self.handlers: dict[int, Callable[..., Any]] = {}
+
+    def on_start(self, event: Any) -> None:
+        """Take note of signals from now on."""
+        if threading.current_thread() is not threading.main_thread():
+            return  # only the main thread hears signals, and is not compiling
+        self.depth += 1
+        if self.depth > 1:
+            return
+        for name in _HEARD:
+            number = getattr(signal, name, None)  # Windows has no SIGHUP
+            handler = signal.getsignal(number) if number is not None else None
+            if number is not None and callable(handler):
+                self.handlers[number] = handler
+                signal.signal(number, self._note)
+
+    def on_end(self, event: Any) -> None:
+        """Let whoever is waiting be heard."""
+        if threading.current_thread() is not threading.main_thread():
+            return
+        self.depth -= 1
+        if self.depth > 0:
+            return
+        handlers, self.handlers = self.handlers, {}
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        waiting, self.waiting = self.waiting, None
+        if waiting is not None:
+            handlers[waiting](waiting, None)
+
+    def _note(self, number: int, _: Any) -> None:
+        self.waiting = number
+
+
+def wait_for_the_compiler() -> None:
+    """Let signals wait while numba compiles, from now on."""
+    _register("numba:compiler_lock", _Deferring())
