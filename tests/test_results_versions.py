@@ -115,7 +115,9 @@ class TestFormat2:
     def test_its_scenario_is_a_scenario(self, older):
         scenario = open_record(older).scenario
         assert (scenario.name, scenario.agents, scenario.network.neighbors) == ("tiny", 5, 2)
-        assert scenario == load(str(DATA / "tiny.toml"))
+        today = load(str(DATA / "tiny.toml"))
+        for part in ("area", "network", "motion", "targets", "steps", "seed"):  # lengths of a strategy follow since then
+            assert getattr(scenario, part) == getattr(today, part)
 
 
 @pytest.mark.parametrize("name", ["sweep", "compare"])

@@ -84,7 +84,7 @@ class TestShape:
 
 class TestWhatThisShoalDoesNotKnow:
     def test_a_field_is_left_out(self):
-        later = {"sea": {"depth": 3}, "network.fog": 0.5, "fleets.1.hull": "steel", "targets.0.mood": "calm"}
+        later = {"weather": {"rain": 3}, "network.fog": 0.5, "fleets.1.hull": "steel", "targets.0.mood": "calm"}
         assert recorded_scenario(told(later)) == scenario()
 
     def test_a_target_keeps_its_words(self):

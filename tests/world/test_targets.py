@@ -16,6 +16,7 @@ from shoal.run.simulation import Simulation
 from shoal.tracks.track import position_at
 from shoal.world.targets.catalogue import NUMBERS, TARGET_FIELDS
 from shoal.world.targets.contract import Tracks
+from shoal.world.sea.sea import calm_sea
 from shoal.world.targets.dispatch import advance_target
 
 NO_DRAW = np.uint64(0)
@@ -31,7 +32,7 @@ def follow(track, time, others=()):
     target["kind"] = NUMBERS["track"]
     target["first_fix"] = sum(each.time.size for each in others)
     target["fixes"], target["max_gap"] = track.time.size, track.max_gap
-    advance_target(target[0], fixes, NOBODY, clock(time, 2), 1, NO_DRAW)
+    advance_target(target[0], fixes, NOBODY, calm_sea(), clock(time, 2), 1, NO_DRAW)
     return float(target["x"][0]), float(target["y"][0]), bool(target["present"][0])
 
 
@@ -98,7 +99,7 @@ class TestTrack:
         target["kind"], target["fixes"], target["max_gap"] = NUMBERS["track"], 2, 100.0
         fixes = Tracks(np.array([0.0, 10.0]), np.array([0.0, 4.0]), np.array([0.0, 2.0]))
         for steps_done in range(1, 30):
-            advance_target(target[0], fixes, NOBODY, clock(1.0, 2), steps_done, NO_DRAW)
+            advance_target(target[0], fixes, NOBODY, calm_sea(), clock(1.0, 2), steps_done, NO_DRAW)
         assert (target["x"][0], target["y"][0], target["present"][0]) == (4.0, 2.0, 0)
 
     def test_in_a_run_the_frame_of_a_step_shows_the_track_at_its_time(self):

@@ -285,6 +285,9 @@ def _differences(path: str, then: Any, now: Any) -> list[str]:
         says = {name for each in (then, now) for name, value in each.items() if value not in (None, [], {})}
         names = [name for name in dict.fromkeys([*then, *now]) if name in both or name in says]
         return [each for name in names for each in _differences(f"{path}.{name}", then.get(name), now.get(name))]
+    if isinstance(then, list) and isinstance(now, list) and len(then) == len(now):
+        pairs = enumerate(zip(then, now, strict=True))
+        return [each for n, (one, other) in pairs for each in _differences(f"{path}.{n}", one, other)]
     return [] if then == now else [f"{path}: {json.dumps(then)} then, {json.dumps(now)} now"]
 
 
