@@ -14,9 +14,9 @@ from scenarios import scenario
 from shoal.core.agents import new_swarm
 from shoal.run.simulation import Simulation
 from shoal.tracks.track import position_at
+from shoal.world.sea.sea import calm_sea
 from shoal.world.targets.catalogue import NUMBERS, TARGET_FIELDS
 from shoal.world.targets.contract import Tracks
-from shoal.world.sea.sea import calm_sea
 from shoal.world.targets.dispatch import advance_target
 
 NO_DRAW = np.uint64(0)
