@@ -10,14 +10,13 @@ from hypothesis import strategies as st
 from coasting import coasting
 from scenarios import fleets, scenario
 from shoal.core.agents import new_swarm
-from shoal.engine.stage import Scratch
+from shoal.engine.stage import Scratch, model_stage
 from shoal.metrics.contract import Step
 from shoal.metrics.graph import tally_graph
 from shoal.metrics.summary import evaluate
 from shoal.metrics.tally import new_tally
 from shoal.run.facts import facts_of
 from shoal.run.simulation import Simulation
-from shoal.world.arena import World
 from shoal.world.neighbors import new_links
 
 
@@ -27,7 +26,7 @@ def measured(linked, alive=None):
     links = new_links(n, n)
     links.square[:n] = np.where(linked, 1.0, np.inf)
     links.reach[:] = 1.0
-    world = World(n, 1, 0.1, 1.0, 1.0, 1.0, 1.0, False, False, False, False, False, False, 1.0)
+    world = model_stage().world._replace(agents=n, fleets=1, time_step=0.1)
     tally = new_tally(steps=1, batches=1, fleets=1, agents=n, targets=1)
     there = np.ones(n) if alive is None else np.asarray(alive, float)
     scratch = Scratch(links, np.zeros(n, np.int64), np.zeros((2, n)), np.zeros(n), np.zeros(n), np.zeros(n))

@@ -67,7 +67,7 @@ class TestWhole:
         names = [name.split(".", 1) for name, _ in arrays_of(simulation.moment)]
         state = {f"{homes.get(part, part)}.{rest}" for part, rest in names}
         numbers = ("world", "run", "phases")  # and no arrays
-        rest = stage._replace(**dict.fromkeys(numbers, np.zeros(0)), radio=only_arrays(stage.radio))
+        rest = stage._replace(**dict.fromkeys(numbers, np.zeros(0)), radio=only_arrays(stage.radio), sea=stage.tracks)
         kept = lambda: {  # noqa: E731
             name: np.array(array)
             for name, array in arrays_of(rest)
