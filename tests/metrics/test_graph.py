@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from coasting import coasting
 from scenarios import fleets, scenario
 from shoal.core.agents import new_swarm
-from shoal.engine.stage import Scratch, model_stage
+from shoal.engine.stage import model_stage
 from shoal.metrics.contract import Step
 from shoal.metrics.graph import tally_graph
 from shoal.metrics.summary import evaluate
@@ -29,7 +29,7 @@ def measured(linked, alive=None):
     world = model_stage().world._replace(agents=n, fleets=1, time_step=0.1)
     tally = new_tally(steps=1, batches=1, fleets=1, agents=n, targets=1)
     there = np.ones(n) if alive is None else np.asarray(alive, float)
-    scratch = Scratch(links, np.zeros(n, np.int64), np.zeros((2, n)), np.zeros(n), np.zeros(n), np.zeros(n))
+    scratch = model_stage().scratch._replace(links=links, leader=np.zeros(n, np.int64))
     swarm = new_swarm([n], ())
     swarm.alive[:n] = there
     tally_graph(tally, Step(0, 0, 0), world, swarm, None, scratch)
