@@ -62,8 +62,9 @@ class TestSimulation:
 
     def test_stays_in_place_from_call_to_call(self):
         simulation = Simulation(small(5, 2))
-        placed = simulation._placed
+        simulation.look()  # from now on it has what frames need
         simulation.advance(3)
+        placed = simulation._placed
         simulation.advance(3, every=1)
         simulation.advance(1)
         assert simulation._placed is placed

@@ -119,9 +119,10 @@ class TestSums:
 
     def test_of_two_strategies_in_one_swarm_keep_to_themselves(self, witness):
         """The paper's fleet, with two sums, swims as it does beside others that it cannot tell apart."""
+        charged = {"name": "charged-pso", "charge": 0.63, "core": 0.3, "perception": 4.0}
         fleets = [
             {"name": "one", "count": 20, "max_speed": 1.0, "strategy": witness},
-            {"name": "other", "count": 30, "max_speed": 1.0, "strategy": "charged-pso"},
+            {"name": "other", "count": 30, "max_speed": 1.0, "strategy": charged},
         ]
         simulation, frames = frames_of(scenario("oceans2020", {"fleets": fleets}))
         assert simulation.crew.sums == 4

@@ -139,7 +139,7 @@ class Simulation:
             self._roll(self._placed, first, last, NEVER, NEVER)
             return None
         tail = NEVER if tail is None else tail
-        self._phases = addresses(self.world, frames=True)
+        self._keep_frames()
         frames = self._new_frames(count_frames(first, last, every, tail))
         self._roll(Placed(self._stage(frames)), first, last, every, tail)
         return Trajectory.from_frames(frames, self.memory_fields) if frames.step.size else None
@@ -150,7 +150,7 @@ class Simulation:
         Its links are those of the coming step. In the sequential order, in which agents hear what others have just
         done, they are those of agents that all decide first.
         """
-        self._phases = addresses(self.world, frames=True)
+        self._keep_frames()
         self._looking = self._in_place(self._looking)
         _look(self._looking.address, self.number)
         seen = Frames(*(array.copy() for array in self._looking.stage.frames))
@@ -200,6 +200,11 @@ class Simulation:
     def radio(self) -> Any:
         """Settings of the radio, and what is on the air; read-only."""
         return read_only(self._radio)
+
+    def _keep_frames(self) -> None:
+        """Compile the phases that frames need, which runs without frames do without."""
+        if not self._phases.record_frame:
+            self._phases = addresses(self.world, frames=True)
 
     def _settle(self) -> None:
         """Make the state true after a change; where everybody is always there, the engine leaves a lot out."""
