@@ -3,6 +3,11 @@
 import os
 import subprocess
 import sys
+import threading
+
+from numba.core import config
+
+from shoal.compiler.kernel import cache_folder, kernel_cache
 
 PLAIN = """
 import warnings
@@ -23,6 +28,36 @@ def printed(**environment):
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
+
+
+class TestThreads:
+    """Numba's setting is the process's: of two threads that decorate at once, one waits."""
+
+    def test_no_thread_takes_the_folder_away_from_another(self):
+        entered, leave, seen = threading.Event(), threading.Event(), []
+
+        def decorate():
+            with kernel_cache():
+                entered.set()
+                leave.wait(10.0)
+
+        first = threading.Thread(target=decorate)
+        first.start()
+        entered.wait(10.0)
+
+        def decorate_too():
+            with kernel_cache():
+                seen.append(config.CACHE_DIR)
+
+        second = threading.Thread(target=decorate_too)
+        second.start()
+        second.join(0.2)
+        assert seen == []
+        leave.set()
+        first.join()
+        second.join()
+        assert seen == [str(cache_folder())]
+        assert seen[0] != config.CACHE_DIR
 
 
 class TestPlainPython:

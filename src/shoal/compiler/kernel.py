@@ -15,6 +15,7 @@ import hashlib
 import os
 import shutil
 import tempfile
+import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -52,6 +53,7 @@ except ModuleNotFoundError as missing:
 
     TypingError = NumbaError  # type: ignore[misc, assignment]
 
+_ONE_AT_A_TIME = threading.RLock()
 _config: Any = config  # its settings come from the environment at run time
 _COMPILED_FOLDERS = ("compiler", "core", "world", "strategies", "metrics", "engine")
 
@@ -75,13 +77,18 @@ def entry_kernel(function: Function) -> Function:
 
 @contextmanager
 def kernel_cache() -> Iterator[None]:
-    """Let numba keep what is decorated inside in our cache folder."""
-    outside = _config.CACHE_DIR
-    _config.CACHE_DIR = str(cache_folder())
-    try:
-        yield
-    finally:
-        _config.CACHE_DIR = outside
+    """Let numba keep what is decorated inside in our cache folder.
+
+    One thread at a time: numba reads its setting twice, and where another thread had left in between, it would keep
+    compiled code in, and run it from, whatever folder the process is in.
+    """
+    with _ONE_AT_A_TIME:
+        outside = _config.CACHE_DIR
+        _config.CACHE_DIR = str(cache_folder())
+        try:
+            yield
+        finally:
+            _config.CACHE_DIR = outside
 
 
 def compiles() -> bool:

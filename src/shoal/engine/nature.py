@@ -61,6 +61,7 @@ def sail_all(stage, number, first, batch, key):
 
 @kernel
 def _sail(swarm, effects, sea, scratch, world, number, first, last):
+    """Move agents first..last by what they command and by their drift."""
     time_step = world.time_step
     drift_x, drift_y = swarm.drift_x, swarm.drift_y
     if not world.flowing:
