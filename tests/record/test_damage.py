@@ -254,12 +254,12 @@ def hurt_arrays(arrays, chance):
 
 
 class TestFuzz:
-    """2,000 seeded mutations of a record."""
+    """700 seeded mutations of a record."""
 
     @pytest.mark.slow
     def test_no_wrong_number_is_taken_as_right(self, good, tmp_path):
         right, count = all_of(good), {"same": 0, "refused": 0}
-        for seed in range(2000):
+        for seed in range(700):
             chance = random.Random(seed)
             folder = shutil.copytree(good, tmp_path / f"r{seed}")
             what = hurt(folder, chance)
@@ -272,13 +272,13 @@ class TestFuzz:
             assert found in count, f"seed {seed}, {what}: {found}"
             count[found] += 1
             shutil.rmtree(folder)
-        assert count["refused"] > 1500
+        assert count["refused"] > 500
 
     @pytest.mark.slow
     @pytest.mark.parametrize("name", ["record", "every"])
     def test_records_of_format_1_which_has_no_checksums_never_end_in_a_traceback(self, tmp_path, name):
         refused = 0
-        for seed in range(300):
+        for seed in range(100):
             folder = shutil.copytree(DATA / "results-v1" / name, tmp_path / f"r{seed}")
             hurt(folder, random.Random(seed))
             try:
@@ -286,7 +286,7 @@ class TestFuzz:
             except RecordError:
                 refused += 1
             shutil.rmtree(folder)
-        assert refused > 150
+        assert refused > 50
 
 
 def show_all(folder):

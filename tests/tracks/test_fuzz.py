@@ -11,7 +11,7 @@ import pytest
 from shoal.core.errors import ShoalError
 from shoal.tracks.read import read_track
 
-FILES, SHARDS, NETCDF_FILES = 2000, 20, 200
+FILES, SHARDS, NETCDF_FILES = 2000, 20, 100
 COUNT = 25
 STAMPS = [f"{datetime(2024, 3, 10, 12) + timedelta(minutes=i):%Y-%m-%dT%H:%M:%SZ}" for i in range(COUNT)]
 PLACES = [(54 + 0.0009 * i, 10 + 0.0012 * i) for i in range(COUNT)]
