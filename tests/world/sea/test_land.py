@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from shoal.core.draws import split
-from shoal.world.sea.land import afloat, anywhere_afloat, clearance, land_of, no_land, room, sailed, seaward
+from shoal.world.sea.land import afloat, anywhere_afloat, clearance, land_of, no_land, room_at, sailed, seaward
 from shoal.world.sea.sight import in_sight, look_along
 
 CELL = 5.0
@@ -38,10 +38,13 @@ class TestClearance:
     def test_room_is_never_longer(self):
         rng = np.random.default_rng(7)
         for x, y in rng.uniform(-520.0, 520.0, (500, 2)):
-            rough, right = room(COAST, x, y), clearance(COAST, x, y)
+            rough, right = (
+                room_at(COAST, (x - COAST.x) * COAST.per_meter, (y - COAST.y) * COAST.per_meter),
+                clearance(COAST, x, y),
+            )
             assert rough * right >= 0.0
             assert abs(rough) <= abs(right)
-        assert room(COAST, 0.0, -400.0) > 400.0
+        assert room_at(COAST, -COAST.x / COAST.cell, (-400.0 - COAST.y) / COAST.cell) > 400.0
 
     def test_open_water(self):
         assert clearance(no_land(), 1e5, -1e5) == 1e6
@@ -101,23 +104,24 @@ class TestSight:
         hidden = 0
         for _ in range(300):
             ends = rng.uniform(-400.0, 400.0, (2, 2))
-            seen, slack, _ = look_along(ISLAND, *ends.ravel())
+            seen, slack, _ = look_along(ISLAND, *ends.ravel(), True)
             hidden += not seen
             for _ in range(4):
                 angle = rng.uniform(0.0, 2 * math.pi, 2)
                 moved = ends + 0.999 * slack * np.stack((np.cos(angle), np.sin(angle)), axis=-1)
-                assert look_along(ISLAND, *moved.ravel())[0] == seen
+                assert look_along(ISLAND, *moved.ravel(), False)[0] == seen
         assert 30 < hidden < 270
 
     def test_both_see_each_other_or_neither(self):
         rng = np.random.default_rng(6)
         for _ in range(300):
             a, b = rng.uniform(-400.0, 400.0, (2, 2))
-            assert look_along(ISLAND, *a, *b) == look_along(ISLAND, *b, *a)
+            assert look_along(ISLAND, *a, *b, True) == look_along(ISLAND, *b, *a, True)
+            assert look_along(ISLAND, *a, *b, True)[0] == look_along(ISLAND, *a, *b, False)[0]
 
     def test_slack_is_of_use(self):
-        assert look_along(ISLAND, -300.0, 300.0, 300.0, 300.0)[1] > 50.0
-        assert look_along(ISLAND, -300.0, 0.0, 300.0, 0.0)[1] > 20.0
+        assert look_along(ISLAND, -300.0, 300.0, 300.0, 300.0, False)[1] > 50.0
+        assert look_along(ISLAND, -300.0, 0.0, 300.0, 0.0, True)[1] > 20.0
 
 
 class TestPlaces:

@@ -19,6 +19,7 @@ class Land(NamedTuple):
     """Distance to the shore at the middles of square cells.
 
     distance : (J, I) [m], above 0 at sea, below on land; x, y : of the middle of cell (0, 0) [m]; cell : its side [m]
+    per_meter : cells in a meter
     blocks : (J / BLOCK, I / BLOCK) the one nearest to 0 in a block of cells, 0 where it has both land and sea: so small
         that it stays in a cache, which the raster does not
     """
@@ -28,6 +29,7 @@ class Land(NamedTuple):
     x: float
     y: float
     cell: float
+    per_meter: float
 
 
 def no_land() -> Land:
@@ -45,44 +47,70 @@ def land_of(distance: npt.ArrayLike, x: float, y: float, cell: float) -> Land:
         least = np.minimum(np.minimum.reduceat(least, starts, axis), least.take(ends, axis))
         most = np.maximum(np.maximum.reduceat(most, starts, axis), most.take(ends, axis))
     blocks = np.where(least > 0.0, least, np.where(most < 0.0, most, np.float32(0.0)))
-    return Land(distance, blocks, float(x), float(y), float(cell))
+    return Land(distance, blocks, float(x), float(y), float(cell), 1.0 / cell)
 
 
 @kernel
 def clearance(land, x, y):
     """Distance to the shore [m], below 0 on land: bilinear between the middles of cells."""
+    return clearance_at(land, (x - land.x) * land.per_meter, (y - land.y) * land.per_meter)
+
+
+@kernel
+def clearance_at(land, a, b):
+    """The same at a place in cells from the middle of the first one."""
+    low, high, _, _, rise = _cell(land, a, b)
+    return low + rise * (high - low)
+
+
+@kernel
+def _cell(land, a, b):
+    """Bilinear: the distances below and above a place [m], how they grow eastward [m per cell], how far up it is."""
     rows, columns = land.distance.shape
-    a = min(max((x - land.x) / land.cell, 0.0), columns - 1.0)
-    b = min(max((y - land.y) / land.cell, 0.0), rows - 1.0)
+    a = min(max(a, 0.0), columns - 1.0)
+    b = min(max(b, 0.0), rows - 1.0)
     i = min(int(a), columns - 2) if columns > 1 else 0
     j = min(int(b), rows - 2) if rows > 1 else 0
     share, rise = a - i, b - j
     left, right = np.uintp(i), np.uintp(min(i + 1, columns - 1))
     down, up = np.uintp(j), np.uintp(min(j + 1, rows - 1))
-    low = land.distance[down, left] + share * (land.distance[down, right] - land.distance[down, left])
-    high = land.distance[up, left] + share * (land.distance[up, right] - land.distance[up, left])
-    return low + rise * (high - low)
+    east_low = land.distance[down, right] - land.distance[down, left]
+    east_high = land.distance[up, right] - land.distance[up, left]
+    low = land.distance[down, left] + share * east_low
+    high = land.distance[up, left] + share * east_high
+    return low, high, east_low, east_high, rise
 
 
 @kernel
-def room(land, x, y):
-    """What the distance to the shore is at least [m], or how far it is below 0 at least: roughly, where it is long."""
-    block = BLOCK * land.cell
+def room_at(land, a, b):
+    """What the distance to the shore is at least [m], or how far it is below 0 at least: roughly, where it is long.
+
+    a, b : a place in cells from the middle of the first one
+    """
     rows, columns = land.blocks.shape
-    i = min(max(int((x - land.x) / block), 0), columns - 1)
-    j = min(max(int((y - land.y) / block), 0), rows - 1)
+    i = min(max(int(a), 0) // BLOCK, columns - 1)
+    j = min(max(int(b), 0) // BLOCK, rows - 1)
     rough = land.blocks[j, i]
-    return float(rough) if abs(rough) > block else clearance(land, x, y)
+    return float(rough) if abs(rough) > BLOCK * land.cell else clearance_at(land, a, b)
 
 
 @kernel
 def seaward(land, x, y):
     """The direction, of length 1, in which the distance to the shore grows fastest; (0, 0) where it grows nowhere."""
-    half = 0.5 * land.cell
-    dx = clearance(land, x + half, y) - clearance(land, x - half, y)
-    dy = clearance(land, x, y + half) - clearance(land, x, y - half)
+    _, out_x, out_y = _shore(land, x, y)
+    return out_x, out_y
+
+
+@kernel
+def _shore(land, x, y):
+    """Distance to the shore [m], and the direction, of length 1, in which it grows: that of the cell's own surface."""
+    low, high, east_low, east_high, rise = _cell(land, (x - land.x) * land.per_meter, (y - land.y) * land.per_meter)
+    dx = east_low + rise * (east_high - east_low)
+    dy = high - low
     size = math.sqrt(dx * dx + dy * dy)
-    return (dx / size, dy / size) if size > 0.0 else (0.0, 0.0)
+    if size == 0.0:
+        return low + rise * (high - low), 0.0, 0.0
+    return low + rise * (high - low), dx / size, dy / size
 
 
 @kernel
@@ -93,12 +121,12 @@ def sailed(land, x, y, to_x, to_y):
     length = math.sqrt(dx * dx + dy * dy)
     if clearance(land, x, y) > length + land.cell:
         return to_x, to_y
-    pieces = int(2.0 * length / land.cell) + 1  # of half a cell: nothing is jumped over
+    pieces = int(2.0 * length * land.per_meter) + 1  # of half a cell: nothing is jumped over
     dx /= pieces
     dy /= pieces
     for _ in range(pieces):
-        next_x, next_y = _off_land(land, x + dx, y + dy)
-        if clearance(land, next_x, next_y) < 0.0:
+        next_x, next_y, free = _off_land(land, x + dx, y + dy)
+        if free < 0.0:
             break
         x, y = next_x, next_y
     return x, y
@@ -106,15 +134,15 @@ def sailed(land, x, y, to_x, to_y):
 
 @kernel
 def _off_land(land, x, y):
-    """The place itself, or one at the shore nearby."""
+    """The place itself, or one at the shore nearby, and the distance to the shore there [m], below 0 if not found."""
+    free, out_x, out_y = _shore(land, x, y)
     for _ in range(3):
-        depth = clearance(land, x, y)
-        if depth >= 0.0:
+        if free >= 0.0:
             break
-        out_x, out_y = seaward(land, x, y)
-        x += (1e-3 * land.cell - depth) * out_x
-        y += (1e-3 * land.cell - depth) * out_y
-    return x, y
+        x += (1e-3 * land.cell - free) * out_x
+        y += (1e-3 * land.cell - free) * out_y
+        free, out_x, out_y = _shore(land, x, y)
+    return x, y, free
 
 
 @kernel

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from shoal.compiler.kernel import kernel
 from shoal.core.agents import Floats, aligned_zeros
-from shoal.world.sea.land import clearance, room
+from shoal.world.sea.land import clearance_at, room_at
 
 _STEEPEST = math.sqrt(2.0)  # how fast the distance between the middles of cells may change, at most
 _SHORTEST = 0.1  # step along a line, in cells
@@ -37,52 +37,63 @@ class Speakers(NamedTuple):
 class Sight(NamedTuple):
     """What is known of the pairs of N speakers and L listeners.
 
-    until : (N, L) what `travelled` may grow to before a pair must be looked at again [m]; below 0: land hides it
-    soonest : (N,) the least of them of each speaker [m]
+    A pair must be looked at again when either has gone so far that what was seen may have changed.
+
+    speaker_until : (N, L) how long the speaker's way may grow before [m], below 0: land hides it; listener_until :
+        (L, N) the listener's. Where all speak from where they listen both are in the first one
+    speaker_soonest, listener_soonest : (N,), (L,) the least of each row [m]
+    speaker_way, listener_way : (N,), (L,) how far each has gone [m], and some
+    speaker_x, speaker_y : (N,), listener_x, listener_y : (L,) where they were last [m]
     where : (N, L) how far along the way was land, 0 to 1: it is looked for there first
     hidden : (L,) how many speakers land hides from a listener
-    travelled : (1,) sum over the steps of the longest way that anybody went [m], and some
-    speaker_x, speaker_y : (N,), listener_x, listener_y : (L,) where they were last [m]
     """
 
-    until: Floats
-    soonest: Floats
-    where: Floats
-    hidden: npt.NDArray[np.int64]
-    travelled: Floats
+    speaker_until: Floats
+    listener_until: Floats
+    speaker_soonest: Floats
+    listener_soonest: Floats
+    speaker_way: Floats
+    listener_way: Floats
     speaker_x: Floats
     speaker_y: Floats
     listener_x: Floats
     listener_y: Floats
+    where: Floats
+    hidden: npt.NDArray[np.int64]
 
 
 def new_sight(agents: int, lanes: int) -> Sight:
     """Nothing is known, but that nobody hides from itself; of no agents, nothing is kept."""
-    until = aligned_zeros(agents * lanes).reshape((agents, lanes))
-    np.fill_diagonal(until[:, :agents], np.inf)
+    speakers, listeners = (aligned_zeros(agents * lanes) for _ in range(2))
+    speaker_until, listener_until = speakers.reshape((agents, lanes)), listeners.reshape((lanes, agents))
+    np.fill_diagonal(speaker_until[:, :agents], np.inf)
+    np.fill_diagonal(listener_until[:agents], np.inf)
     return Sight(
-        until=until,
-        soonest=np.zeros(agents),
-        where=np.zeros(until.shape),
-        hidden=np.zeros(lanes, np.int64),
-        travelled=np.ones(1),
+        speaker_until=speaker_until,
+        listener_until=listener_until,
+        speaker_soonest=np.zeros(agents),
+        listener_soonest=np.zeros(lanes),
+        speaker_way=np.ones(agents),
+        listener_way=np.ones(lanes),
         speaker_x=np.zeros(agents),
         speaker_y=np.zeros(agents),
         listener_x=np.zeros(lanes),
         listener_y=np.zeros(lanes),
+        where=np.zeros((agents, lanes)),
+        hidden=np.zeros(lanes, np.int64),
     )
 
 
 @kernel
 def in_sight(land, x, y, other_x, other_y):
     """Whether no land lies between two places [m]; the same both ways. Cheap where both are far from the shore."""
-    seen, _, _ = look_along(land, x, y, other_x, other_y)
+    seen, _, _ = look_along(land, x, y, other_x, other_y, True)
     return seen
 
 
 @kernel
-def look_along(land, x, y, other_x, other_y):
-    """Look from the western of two places to the other.
+def look_along(land, x, y, other_x, other_y, doubt):
+    """Look from the western of two places to the other; `doubt`: land is likely, a first try here and there finds it.
 
     Returns
     -------
@@ -91,29 +102,29 @@ def look_along(land, x, y, other_x, other_y):
     """
     if other_x < x or (other_x == x and other_y < y):
         x, y, other_x, other_y = other_x, other_y, x, y
-    dx = other_x - x
-    dy = other_y - y
-    distance = math.sqrt(dx * dx + dy * dy)
-    free = clearance(land, x, y)
-    slack = 0.5 * (free + clearance(land, other_x, other_y) - _STEEPEST * distance)
+    a, b = (x - land.x) * land.per_meter, (y - land.y) * land.per_meter
+    da, db = (other_x - x) * land.per_meter, (other_y - y) * land.per_meter
+    distance = math.sqrt(da * da + db * db) * land.cell
+    free = clearance_at(land, a, b)
+    slack = 0.5 * (free + clearance_at(land, a + da, b + db) - _STEEPEST * distance)
     if slack > 0.0:
         return True, slack / _STEEPEST, 0.0
     deepest = 0.0
     there = 0.0
-    tries = min(int(distance / (_FAR * land.cell)), _TRIES)
+    tries = min(int(distance / (_FAR * land.cell)), _TRIES) if doubt else 0
     for number in range(tries):  # most of what is hidden is behind much land
         share = (number + 0.5) / tries
-        after = room(land, x + share * dx, y + share * dy)
-        if after < deepest:
+        after = room_at(land, a + share * da, b + share * db)
+        if after < deepest and after < -_SURE * land.cell:  # else a step may leap over it
             deepest = after
             there = share
     slack = max(free, 0.0)
-    gone = 0.0 if deepest >= -_DEEP * land.cell else distance
-    while gone < distance:
-        step = min(max(abs(free) / _STEEPEST, _SHORTEST * land.cell), distance - gone)
-        gone += step
-        share = gone / distance
-        after = room(land, x + share * dx, y + share * dy)
+    share = 0.0 if deepest >= -_DEEP * land.cell else 1.0
+    shortest, steps = _SHORTEST * land.cell, 1.0 / max(distance, 1e-9)
+    while share < 1.0:
+        step = max(abs(free) / _STEEPEST, shortest)
+        share = min(share + step * steps, 1.0)
+        after = room_at(land, a + share * da, b + share * db)
         if after < deepest:
             deepest = after
             there = share
@@ -131,23 +142,24 @@ def _still_hidden(land, x, y, other_x, other_y, share):
     """How far both may move before a place on the way from the western to the other is no longer on land [m]."""
     if other_x < x or (other_x == x and other_y < y):
         x, y, other_x, other_y = other_x, other_y, x, y
-    depth = -room(land, x + share * (other_x - x), y + share * (other_y - y))
+    a, b = x + share * (other_x - x), y + share * (other_y - y)
+    depth = -room_at(land, (a - land.x) * land.per_meter, (b - land.y) * land.per_meter)
     return (depth - _SURE * land.cell) / _STEEPEST
 
 
 @kernel
 def hide_behind_land(links, sight, speakers, swarm, land, first, agents):
     """Unlink speakers that land hides from the agents from `first` on; links.wanted becomes k, or all that are left."""
-    square, hidden, until = links.square, sight.hidden, sight.until
+    square, hidden, until = links.square, sight.hidden, sight.speaker_until
     lanes = min(links.reach.size, agents - first)
     if until.size == 0:  # one listener after the other: what is known would be another's
         _look_at_all(square, hidden, speakers, swarm, land, first, lanes, agents)
     else:
-        sight.travelled[0] += _farthest(sight, speakers, swarm, lanes, agents)
+        _go_on(sight.speaker_way, sight.speaker_x, sight.speaker_y, speakers.x, speakers.y, agents)
+        _look_around(sight, speakers, swarm, land, agents)
         for j in range(agents):
-            if sight.soonest[j] < sight.travelled[0]:
-                _look_again(sight, speakers, swarm, land, j, j if speakers.mutual else lanes)
-        for j in range(agents):
+            if speakers.mutual and hidden[j] == 0:
+                continue
             for i in range(lanes):
                 square[j, i] = np.inf if until[j, i] < 0.0 else square[j, i]
     for i in range(links.wanted.size):
@@ -168,56 +180,77 @@ def _look_at_all(square, hidden, speakers, swarm, land, first, lanes, agents):
 
 
 @kernel
-def _farthest(sight, speakers, swarm, lanes, agents):
-    """The longest way that anybody went since last time [m]; keeps where they are now."""
-    longest = 0.0
-    for j in range(agents):
-        dx, dy = speakers.x[j] - sight.speaker_x[j], speakers.y[j] - sight.speaker_y[j]
-        longest = max(longest, dx * dx + dy * dy)
-        sight.speaker_x[j], sight.speaker_y[j] = speakers.x[j], speakers.y[j]
-    for i in range(lanes):
-        dx, dy = swarm.x[i] - sight.listener_x[i], swarm.y[i] - sight.listener_y[i]
-        longest = max(longest, dx * dx + dy * dy)
-        sight.listener_x[i], sight.listener_y[i] = swarm.x[i], swarm.y[i]
-    return math.sqrt(longest)
+def _go_on(way, last_x, last_y, x, y, agents):
+    """Let ways grow by how far each went since last time [m], and keep where they are now, in place."""
+    for i in range(agents):
+        dx, dy = x[i] - last_x[i], y[i] - last_y[i]
+        way[i] += math.sqrt(dx * dx + dy * dy)
+        last_x[i], last_y[i] = x[i], y[i]
 
 
 @kernel
-def _look_again(sight, speakers, swarm, land, j, lanes):
-    """Look which of the first listeners see speaker j, where that may have changed; if mutual, it sees them, too.
+def _look_around(sight, speakers, swarm, land, agents):
+    """Look at the pairs of which either has gone far enough."""
+    soonest, way, until = sight.speaker_soonest, sight.speaker_way, sight.speaker_until
+    for j in range(agents):
+        if soonest[j] < way[j]:
+            least = np.inf
+            for i in range(agents):
+                if abs(until[j, i]) < way[j]:
+                    _look_again(sight, speakers, swarm, land, j, i)
+                least = min(least, abs(until[j, i]))
+            soonest[j] = least
+    if speakers.mutual:
+        return
+    soonest, way, until = sight.listener_soonest, sight.listener_way, sight.listener_until
+    _go_on(way, sight.listener_x, sight.listener_y, swarm.x, swarm.y, agents)
+    for i in range(agents):
+        if soonest[i] < way[i]:
+            least = np.inf
+            for j in range(agents):
+                if until[i, j] < way[i]:
+                    _look_again(sight, speakers, swarm, land, j, i)
+                least = min(least, until[i, j])
+            soonest[i] = least
+
+
+@kernel
+def _look_again(sight, speakers, swarm, land, j, i):
+    """Look whether listener i sees speaker j; if they speak where they listen, both see each other.
 
     A pair out of range is not looked at before it may be in range.
     """
-    range_square = speakers.range_square
-    travelled = sight.travelled[0]
-    until, hidden = sight.until, sight.hidden
-    soonest = np.inf
-    for i in range(lanes):
-        if abs(until[j, i]) < travelled:
-            before = 1 if until[j, i] < 0.0 else 0
-            dx, dy = swarm.x[i] - speakers.x[j], swarm.y[i] - speakers.y[j]
-            square = dx * dx + dy * dy
-            if square > range_square:
-                until[j, i] = travelled + 0.5 * (math.sqrt(square) - math.sqrt(range_square))
-            else:
-                until[j, i] = _looked(sight, speakers, swarm, land, j, i)
-            change = (1 if until[j, i] < 0.0 else 0) - before
-            hidden[i] += change
-            if speakers.mutual:
-                until[i, j] = until[j, i]
-                hidden[j] += change
-        soonest = min(soonest, abs(until[j, i]))
-    sight.soonest[j] = soonest
+    until, hidden = sight.speaker_until, sight.hidden
+    before = 1 if until[j, i] < 0.0 else 0
+    dx, dy = swarm.x[i] - speakers.x[j], swarm.y[i] - speakers.y[j]
+    square = dx * dx + dy * dy
+    seen, slack = True, 0.0
+    if square > speakers.range_square:
+        slack = 0.5 * (math.sqrt(square) - math.sqrt(speakers.range_square))
+    else:
+        seen, slack = _looked(sight, speakers, swarm, land, j, i)
+    sign = 1.0 if seen else -1.0
+    change = (0 if seen else 1) - before
+    until[j, i] = sign * (sight.speaker_way[j] + slack)
+    hidden[i] += change
+    if speakers.mutual:
+        until[i, j] = sign * (sight.speaker_way[i] + slack)
+        sight.where[i, j] = sight.where[j, i]
+        sight.speaker_soonest[i] = min(sight.speaker_soonest[i], sight.speaker_way[i] + slack)
+        hidden[j] += change
+    else:
+        sight.listener_until[i, j] = sight.listener_way[i] + slack
+        sight.listener_soonest[i] = min(sight.listener_soonest[i], sight.listener_way[i] + slack)
 
 
 @kernel
 def _looked(sight, speakers, swarm, land, j, i):
-    """What `until` is of a pair that is looked at now: first where land was last time."""
+    """Whether a pair sees each other, and how far both may go before that may change [m]: first where land was."""
     x, y, other_x, other_y = swarm.x[i], swarm.y[i], speakers.x[j], speakers.y[j]
-    travelled = sight.travelled[0]
     if sight.where[j, i] > 0.0:
         slack = _still_hidden(land, x, y, other_x, other_y, sight.where[j, i])
         if slack > 0.0:
-            return -(travelled + slack)
-    seen, slack, sight.where[j, i] = look_along(land, x, y, other_x, other_y)
-    return travelled + slack if seen else -(travelled + slack)
+            return False, slack
+    doubt = sight.speaker_until[j, i] <= 0.0
+    seen, slack, sight.where[j, i] = look_along(land, x, y, other_x, other_y, doubt)
+    return seen, slack
