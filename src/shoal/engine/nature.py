@@ -13,7 +13,7 @@ from shoal.world.motion import add_drift, sail, sail_coast
 from shoal.world.placement import launch
 from shoal.world.radio import said
 from shoal.world.sea.sea import carry, span
-from shoal.world.sea.sight import Speakers, hide_behind_land
+from shoal.world.sea.sight import Places, hide_behind_land
 from shoal.world.targets.afloat import drift, stop_at_land
 
 
@@ -28,16 +28,16 @@ def disturb_all(stage, number, first, batch, key):
 
 @phase
 def hide(stage, number, first, batch, key):
-    """Land hides speakers from the agents from `first` on."""
+    """Land hides others from the agents from `first` on: as waves went when the others spoke."""
     world = part(stage, WORLD)
     swarm = part(stage, SWARM)
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
     reports = said(radio, swarm, number)
-    speakers = Speakers(reports.x, reports.y, radio.range_square, radio.delay == 0 and radio.interval == 1)
-    if world.inexact:  # waves go by where all are
-        speakers = Speakers(swarm.x, swarm.y, radio.range_square, True)
-    hide_behind_land(scratch.links, scratch.sight, speakers, swarm, part(stage, SEA).land, first, world.agents)
+    places = Places(reports.x, reports.y, radio.range_square)
+    if world.inexact:  # reports tell what is believed; waves go by where all are
+        places = Places(swarm.x, swarm.y, radio.range_square)
+    hide_behind_land(scratch.links, scratch.sight, places, part(stage, SEA).land, swarm.neighbors, first, world.agents)
     return 0
 
 

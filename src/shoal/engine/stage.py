@@ -127,7 +127,7 @@ def new_scratch(world: World, lanes: int, sums: int = 2, ranked: bool = False) -
         b=aligned_zeros(lanes),
         c=aligned_zeros(lanes),
         d=aligned_zeros(lanes),
-        sight=new_sight(0 if world.sequential or not world.coastal else world.agents, lanes),
+        sight=new_sight(world.agents if world.coastal else 0, lanes),
     )
 
 
