@@ -232,7 +232,7 @@ class TestKilled:
                 stderr=subprocess.DEVNULL,
             )
             before = self.finished(tmp_path / "killed")
-            wait = chance.uniform(0.6, 2.0) if kills < 20 else 60.0
+            wait = chance.uniform(0.6, 2.0) if kills < 8 else 60.0
             try:
                 process.wait(wait)
             except subprocess.TimeoutExpired:

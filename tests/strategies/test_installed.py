@@ -42,12 +42,21 @@ def install(site, package, text, **offers):
 
 def shoal(site, *tokens):
     """Run a command with these packages installed; return exit code, stdout, stderr."""
+    return python(site, "-m", "shoal", *tokens)
+
+
+def python(site, *arguments):
     path = os.pathsep.join([str(site), *filter(None, [os.environ.get("PYTHONPATH")])])
     done = subprocess.run(
-        [sys.executable, "-m", "shoal", *tokens],
+        [sys.executable, *arguments],
         cwd=site.parent, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, check=False,
     )  # fmt: skip
     return done.returncode, done.stdout, done.stderr
+
+
+def hash_of(site, file):
+    """The hash of a scenario; `shoal check` says it, too, but compiles for a minute."""
+    return python(site, "-c", f"import shoal; print(shoal.load({file!r}).hash)")[1]
 
 
 def listed(site):
@@ -56,7 +65,7 @@ def listed(site):
 
 
 class TestAPackage:
-    def test_is_listed_and_runs_like_our_own(self, site):
+    def test_is_listed_like_our_own(self, site):
         install(site, "zigzag", ZIGZAG)
         known, err = listed(site)
         assert known["zigzag"]["reference"] == "Sailors, always"
@@ -64,9 +73,6 @@ class TestAPackage:
         assert not known["zigzag"]["builtin"]
         assert known["knn-pso"]["builtin"]
         assert err == ""
-        code, out, _ = shoal(site, "run", "oceans2020", "--strategy", "zigzag", "--steps", "50", "--json")
-        assert code == 0
-        assert json.loads(out)["steps"] == 50
 
     def test_is_compared_like_our_own(self, site):
         install(site, "zigzag", ZIGZAG)
@@ -81,13 +87,13 @@ class TestAPackage:
             + '[strategy]\nname = "zigzag"\n\n[[targets]]\nkind = "still"\nradius = 1.0\n',
             encoding="utf-8",
         )
-        first = shoal(site, "check", "mine.toml")[1]
+        first = hash_of(site, "mine.toml")
         saved = shoal(site, "scenario", "mine.toml")[1]
         assert "source = " in saved
         (site.parent / "saved.toml").write_text(saved, encoding="utf-8")
-        assert shoal(site, "check", "saved.toml")[1].split()[-1] == first.split()[-1]
+        assert hash_of(site, "saved.toml") == first
         (site / "zigzag.py").write_text(ZIGZAG + "# changed\n", encoding="utf-8")
-        assert shoal(site, "check", "mine.toml")[1] != first
+        assert hash_of(site, "mine.toml") != first
         code, _, err = shoal(site, "check", "saved.toml")
         assert code == 2
         assert "is not the version that this scenario was made with" in err
@@ -123,7 +129,7 @@ class TestABrokenPackage:
         assert code == 2
         assert "package 'zigzag': zigzag cannot be imported: ZeroDivisionError" in err
         assert "fix: update or uninstall it" in err
-        assert shoal(site, "check", "oceans2020")[0] == 0
+        assert shoal(site, "scenario", "oceans2020")[0] == 0
 
     def test_its_strategy_is_offered_where_a_name_is_unknown(self, site):
         install(site, "zigzag", "1 / 0\n")
