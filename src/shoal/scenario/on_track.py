@@ -1,6 +1,6 @@
 """Put a scenario on a recorded track: the arena around it, the lengths with the arena, the speeds as they are."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from shoal.scenario.scaled import multiplied
 from shoal.scenario.schema import Scenario
 from shoal.scenario.targets import Target
 from shoal.tracks.read import read_track
-from shoal.tracks.track import Track
+from shoal.tracks.track import Track, position_at
 
 ROOM = 1.25  # side of the arena over the track's longer extent: as waypoints in [-8, 8] of [-10, 10]
 MOST_STEPS = 100_000  # of a run along the whole track; the time-step is the shortest that keeps to it
@@ -108,6 +108,23 @@ def open_track(target: Target, origin: tuple[float, float] | None) -> Track:
             target.file, "does not hold the track that this scenario was made with", "restore it, or drop `digest`"
         )
     return track
+
+
+def places_on_tracks(scenario: Scenario) -> Callable[[float], list[tuple[float, float, float]]]:
+    """Return a function of the time since step 0 [s]: x, y and radius [m] of each recorded target that is there.
+
+    Raises
+    ------
+    TrackError, ScenarioError : see open_tracks
+    """
+    radii = [target.radius for target in scenario.targets if target.kind == "track"]
+    tracks = list(zip(open_tracks(scenario), radii, strict=True))
+
+    def places(time: float) -> list[tuple[float, float, float]]:
+        found = [(*position_at(track, time), radius) for track, radius in tracks]
+        return [(float(x), float(y), radius) for x, y, present, radius in found if present]
+
+    return places
 
 
 def _check_text(text: str) -> None:

@@ -1,0 +1,424 @@
+"""A body that speaks MAVLink, against a rover that does, in a time of the tests' own."""
+
+import math
+import random
+
+import pytest
+
+pytest.importorskip("pymavlink", reason="pymavlink is not installed: pip install '.[mavlink]'")
+pytest.importorskip("pyproj", reason="pyproj is not installed: pip install '.[mavlink]'")
+
+from pymavlink.dialects.v20 import ardupilotmega as words
+
+from rovers import Hand, Rover
+from shoal.buoy.connection import Datagrams
+from shoal.buoy.errors import BodyError, UnreadyError
+from shoal.buoy.fence import Fence
+from shoal.buoy.mavlink import Mavlink, key_of
+from shoal.buoy.mavlink_body import MavlinkBody
+from shoal.buoy.vehicle import Vehicle
+from shoal.core.geodesy import Frame
+
+ORIGIN = (5.3, 60.4)
+FENCE = Fence(200.0, 100.0, 2.0)
+SILENCE = 1.2
+
+
+class Scene:
+    """A rover, a body that listens for it, and the hand that moves their time."""
+
+    def __init__(self, *, at=(0.0, 0.0), origin=ORIGIN, fence=FENCE, detector=lambda x, y: False, key=None, **rover):
+        self.hand, self.frame = Hand(), Frame(origin)
+        self.connection = Datagrams(("127.0.0.1", 0), listens=True)
+        self.rover = Rover(self.connection.place, *self.frame.geographic(*at), **rover)
+        self.hand.movers.append(self.rover)
+        self.others = []
+        self.vehicle = Vehicle("udp:here", self.connection, Mavlink(key=key))
+        chosen = {"detector": detector, "silence": SILENCE, "clock": self.hand.clock, "wait": self.hand.wait}
+        self.body = MavlinkBody(self.vehicle, self.frame, fence, **chosen)
+        self.hand.bodies.append(self.body)
+
+    @property
+    def place(self):
+        return self.frame.local(self.rover.lon, self.rover.lat)
+
+    @property
+    def speed(self):
+        return math.hypot(self.rover.east, self.rover.north)
+
+    def another(self, at=(0.0, 0.0), **rover):
+        self.others.append(Rover(self.rover.to, *self.frame.geographic(*at), **rover))
+        return self.others[-1]
+
+    def close(self):
+        self.connection.close()
+        for each in (self.rover, *self.others):
+            each.socket.close()
+
+
+@pytest.fixture
+def scene():
+    made = []
+
+    def make(**options):
+        begun = options.pop("begun", True)
+        made.append(Scene(**options))
+        if begun:
+            made[-1].body.begin(arm=True)
+        return made[-1]
+
+    yield make
+    for each in made:
+        each.close()
+
+
+class TestBegin:
+    """It waits for a rover or boat, its place, GUIDED and, if asked to, for it to be armed."""
+
+    def test_says_which_vehicle_it_has(self, scene):
+        here = scene(begun=False, system=7)
+        assert here.body.begin(arm=True) == "surface boat of ardupilotmega, system 7"
+        assert here.rover.mode == words.ROVER_MODE_GUIDED
+        assert here.rover.armed
+
+    def test_arms_only_who_is_asked_to(self, scene):
+        here = scene(begun=False)
+        here.body.begin()
+        assert not here.rover.armed
+        with pytest.raises(UnreadyError, match="is not armed"):
+            here.body.go(1.0, 0.0)
+        assert here.rover.setpoints == []
+
+    def test_nobody_is_heard(self, scene):
+        here = scene(begun=False)
+        here.rover.mute = True
+        with pytest.raises(BodyError, match="no vehicle is heard"):
+            here.body.begin()
+        assert here.hand.now == pytest.approx(130.0, abs=0.2)
+
+    @pytest.mark.parametrize(
+        ("kind", "autopilot", "said"),
+        [
+            (words.MAV_TYPE_QUADROTOR, words.MAV_AUTOPILOT_ARDUPILOTMEGA, "a quadrotor of ardupilotmega"),
+            (words.MAV_TYPE_GROUND_ROVER, words.MAV_AUTOPILOT_PX4, "a ground rover of px4"),
+        ],
+    )
+    def test_who_is_no_rover_of_ardupilot_is_not_steered(self, scene, kind, autopilot, said):
+        here = scene(begun=False, kind=kind)
+        here.rover.autopilot = autopilot
+        with pytest.raises(BodyError, match=said):
+            here.body.begin(arm=True)
+        assert "COMMAND_LONG" not in here.rover.heard
+
+    def test_a_vehicle_without_a_place_is_not_armed(self, scene):
+        here = scene(begun=False)
+        here.rover.blind = True
+        with pytest.raises(BodyError, match="does not say where it is"):
+            here.body.begin(arm=True)
+        assert not here.rover.armed
+
+    def test_nor_one_that_is_far_away(self, scene):
+        here = scene(begun=False, at=(0.0, 900.0))
+        with pytest.raises(BodyError, match=r"is at 0, 900 m, 800 m outside the fence\n  fix: .*area.origin"):
+            here.body.begin(arm=True)
+        assert not here.rover.armed
+
+    def test_what_the_vehicle_has_against_it_is_passed_on(self, scene):
+        here = scene(begun=False)
+        here.rover.prearm = "Compass not calibrated"
+        with pytest.raises(BodyError, match="Arm: Compass not calibrated"):
+            here.body.begin(arm=True)
+
+    def test_outside_guided_the_rover_of_these_tests_refuses_to_be_armed(self, scene):
+        here = scene(begun=False)
+        here.body.begin()
+        here.rover.mode = words.ROVER_MODE_MANUAL
+        here.vehicle.ask_to_arm()
+        here.hand.run(1.0)
+        assert not here.rover.armed
+        assert here.vehicle.answers[words.MAV_CMD_COMPONENT_ARM_DISARM] == words.MAV_RESULT_FAILED
+
+
+class TestSteering:
+    """It goes where it is told in the arena's frame, and says where it is there."""
+
+    def test_goes_where_it_is_told(self, scene):
+        here = scene()
+        here.hand.run(20.0, lambda: here.body.go(1.0, -0.5))
+        x, y = here.place
+        lagged = 20.0 - 0.5  # the rover's lag
+        assert (x, y) == pytest.approx((lagged, -0.5 * lagged), abs=0.2)
+        seen = here.body.read()
+        assert seen[:4] == pytest.approx((x, y, 1.0, -0.5), abs=0.25)
+
+    def test_where_the_meridians_turn_it_goes_along_the_frame_all_the_same(self, scene):
+        here = scene(at=(60e3, 0.0), fence=Fence(100e3, 100e3, 2.0))
+        here.hand.run(60.0, lambda: here.body.go(0.0, 2.0))
+        x, y = here.place
+        assert abs(x - 60e3) < 0.05
+        assert y == pytest.approx(2.0 * 59.5, abs=0.3)
+        bearing = math.degrees(math.atan2(here.rover.east, here.rover.north))
+        assert abs(bearing) > 0.9  # of true north: uncorrected, it would be 1.1 m off by now
+
+    def test_nobody_makes_it_faster_than_its_fleet(self, scene):
+        here = scene()
+        here.hand.run(5.0, lambda: here.body.go(30.0, 40.0))
+        assert here.speed == pytest.approx(2.0, abs=0.01)
+
+    def test_set_points_come_at_least_twice_a_second_without_anybody_asking(self, scene):
+        here = scene()
+        here.body.go(1.0, 0.0)
+        begun, before = here.hand.now, len(here.rover.setpoints)
+        here.hand.run(1.0)
+        assert here.hand.now - begun == pytest.approx(1.0)
+        assert len(here.rover.setpoints) - before >= 4
+
+    def test_only_velocities_count_and_a_standstill_turns_to_nowhere(self, scene):
+        here = scene()
+        here.body.go(1.0, 0.0)
+        here.hand.run(0.3)
+        masks = {math.hypot(each.vx, each.vy) > 0.0: each.type_mask for _, each in here.rover.setpoints}
+        ignored = sum(
+            getattr(words, f"POSITION_TARGET_TYPEMASK_{name}_IGNORE")
+            for name in ["X", "Y", "Z", "AX", "AY", "AZ", "YAW"]
+        )
+        assert masks == {True: ignored + words.POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE, False: ignored}
+
+    def test_its_heartbeat_goes_out_every_second(self, scene):
+        here = scene()
+        before = here.rover.heard.count("HEARTBEAT")
+        here.hand.run(10.0)
+        assert here.rover.heard.count("HEARTBEAT") - before == pytest.approx(10, abs=1)
+
+    def test_the_detector_is_asked_where_it_is(self, scene):
+        here = scene(detector=lambda x, y: x > 5.0)
+        assert not here.body.read().on_target
+        here.hand.run(10.0, lambda: here.body.go(1.0, 0.0))
+        assert here.body.read().on_target
+
+    def test_every_other_message_lost_it_gets_there(self, scene):
+        here = scene(lost=0.5)
+        here.hand.run(20.0, lambda: here.body.go(1.0, 0.0))
+        assert here.place[0] == pytest.approx(19.5, abs=1.0)
+
+    def test_a_velocity_that_is_none_stops_it(self, scene):
+        here = scene()
+        here.hand.run(3.0, lambda: here.body.go(1.0, 0.0))
+        with pytest.raises(BodyError, match="is not finite"):
+            here.body.go(math.nan, 0.0)
+        here.hand.run(3.0)
+        assert here.speed < 0.01
+
+
+class TestWatchdog:
+    """Who hears nothing, or does not know where it is, lies still."""
+
+    def test_without_a_command_it_stops_before_the_autopilot_does(self, scene):
+        here = scene()
+        here.body.go(2.0, 0.0)
+        here.hand.run(SILENCE + 2.0)
+        assert here.rover.setpoint == (0.0, 0.0)
+        assert here.speed < 0.1
+        assert here.body.silences == 1
+
+    def test_and_goes_on_with_the_next(self, scene):
+        here = scene()
+        here.hand.run(5.0)
+        here.hand.run(5.0, lambda: here.body.go(2.0, 0.0))
+        assert here.speed == pytest.approx(2.0, abs=0.01)
+
+    def test_a_body_nobody_drives_is_stopped_by_the_autopilot(self, scene):
+        here = scene()
+        here.body.go(2.0, 0.0)
+        here.hand.bodies.clear()
+        here.hand.run(6.0)
+        assert here.speed < 0.01
+
+    def test_a_lost_vehicle_is_said_and_not_steered(self, scene):
+        here = scene()
+        here.body.go(1.0, 0.0)
+        here.rover.mute = True
+        here.hand.run(5.0)
+        with pytest.raises(UnreadyError, match="was not heard for"):
+            here.body.read()
+        with pytest.raises(UnreadyError, match="was not heard for"):
+            here.body.go(1.0, 0.0)
+        here.hand.run(2.0)
+        assert here.rover.setpoint == (0.0, 0.0)
+        here.rover.mute = False
+        here.hand.run(2.0)
+        here.body.go(1.0, 0.0)
+        assert here.body.read().on_target is False
+
+    def test_without_a_position_there_is_no_reading_and_no_way(self, scene):
+        here = scene()
+        here.hand.run(3.0, lambda: here.body.go(1.0, 0.0))
+        here.rover.blind = True
+        here.hand.run(2.5)
+        for _ in range(3):
+            with pytest.raises(UnreadyError, match=r"said [23]\.\d s ago where it is"):
+                here.body.go(1.0, 0.0)
+            here.hand.run(0.3)
+        assert here.rover.setpoint == (0.0, 0.0)
+        here.rover.blind = False
+        here.hand.run(0.5)
+        here.hand.run(3.0, lambda: here.body.go(1.0, 0.0))
+        assert here.speed == pytest.approx(1.0, abs=0.01)
+
+    def test_a_rover_that_was_started_anew_is_asked_for_its_place_again(self, scene):
+        here = scene()
+        here.hand.run(20.0)
+        here.rover.interval, here.rover.time, here.rover.beat_at, here.rover.fix_at = None, 0.0, 0.0, 0.0
+        here.hand.run(4.0)
+        assert here.body.read().x == pytest.approx(0.0, abs=0.1)
+
+
+class TestPerson:
+    """Whoever switches the mode has the vehicle."""
+
+    def test_in_another_mode_nothing_is_sent_and_guided_is_not_asked_for(self, scene):
+        here = scene()
+        here.hand.run(1.0, lambda: here.body.go(1.0, 0.0))
+        here.rover.mode = words.ROVER_MODE_MANUAL
+        here.hand.run(1.5)
+        sent = len(here.rover.setpoints)
+        for _ in range(10):
+            with pytest.raises(UnreadyError, match="is in mode MANUAL: a person"):
+                here.body.go(1.0, 0.0)
+            here.hand.run(1.0)
+        assert len(here.rover.setpoints) == sent
+        assert here.rover.mode == words.ROVER_MODE_MANUAL
+        assert here.body.read().x > 0.0  # it is heard as before
+
+    def test_given_back_it_goes_on(self, scene):
+        here = scene()
+        here.rover.mode = words.ROVER_MODE_HOLD
+        here.hand.run(3.0)
+        here.rover.mode = words.ROVER_MODE_GUIDED
+        here.hand.run(1.5)
+        here.hand.run(3.0, lambda: here.body.go(1.0, 0.0))
+        assert here.speed == pytest.approx(1.0, abs=0.01)
+
+    def test_at_the_end_it_holds(self, scene):
+        here = scene()
+        here.hand.run(1.0, lambda: here.body.go(1.0, 0.0))
+        here.body.close()
+        assert here.rover.mode == words.ROVER_MODE_HOLD
+        here.body.close()  # twice is once
+
+    def test_but_not_where_a_person_has_it(self, scene):
+        here = scene()
+        here.rover.mode = words.ROVER_MODE_MANUAL
+        here.hand.run(2.0)
+        here.body.close()
+        assert here.rover.mode == words.ROVER_MODE_MANUAL
+
+
+class TestFence:
+    """Whatever it is told, it stays inside."""
+
+    def test_a_strategy_gone_mad_does_not_take_it_out(self, scene):
+        here = scene(at=(180.0, 80.0))
+        chance, most = random.Random(3), [0.0, 0.0]
+
+        def go():
+            here.body.go(chance.choice((-1e9, -3.0, 5.0, 1e9)), chance.choice((-2.0, 7.0, 1e9)))
+            most[:] = (max(far, abs(at)) for far, at in zip(most, here.place, strict=True))
+
+        here.hand.run(300.0, go)
+        assert 199.0 < most[0] <= 200.0
+        assert 99.0 < most[1] <= 100.0
+
+    def test_from_outside_it_comes_back(self, scene):
+        here = scene(at=(203.0, -104.0))
+        here.hand.run(6.0, lambda: here.body.go(2.0, -2.0))
+        x, y = here.place
+        assert abs(x) <= 200.0
+        assert abs(y) <= 100.0
+
+    def test_far_outside_it_is_left_to_people(self, scene):
+        here = scene()
+        here.rover.lon, here.rover.lat = here.frame.geographic(0.0, 5000.0)
+        here.hand.run(1.0)
+        with pytest.raises(UnreadyError, match="4900 m outside the fence"):
+            here.body.read()
+        with pytest.raises(UnreadyError, match="4900 m outside the fence"):
+            here.body.go(0.0, -1.0)
+        assert here.rover.setpoint == (0.0, 0.0)
+
+
+class TestNoise:
+    """What is no message of the vehicle's changes nothing."""
+
+    def test_garbage_and_damaged_messages_are_counted(self, scene):
+        here = scene()
+        chance = random.Random(5)
+        fix = words.MAVLink_global_position_int_message(0, 1, 1, 0, 0, 0, 0, 0, 0).pack(words.MAVLink(None, 1, 1))
+
+        def shout():
+            for _ in range(10):
+                damaged = bytearray(fix)
+                damaged[chance.randrange(10, len(fix))] ^= 1 << chance.randrange(8)
+                for data in (chance.randbytes(chance.randrange(300)), b"\xfd" + chance.randbytes(40), damaged):
+                    here.rover.socket.sendto(data, here.rover.to)
+            here.body.go(1.0, 0.0)
+
+        here.hand.run(30.0, shout)
+        assert here.vehicle.damaged >= 6000
+        assert here.place[0] == pytest.approx(29.5, abs=0.2)
+        assert here.body.read().x == pytest.approx(29.5, abs=0.4)
+
+    def test_another_vehicle_and_another_address_are_not_heeded(self, scene):
+        here = scene()
+        intruder, other = here.another((90.0, 0.0)), here.another((90.0, 0.0), system=9)
+        for each in (intruder, other):
+            each.interval = 0.2
+            here.hand.movers.append(each)
+        here.hand.run(5.0, lambda: here.body.go(1.0, 0.0))
+        assert here.body.read().x == pytest.approx(4.5, abs=0.4)
+        assert intruder.setpoints == other.setpoints == []
+        assert here.vehicle.ignored > 20
+
+    def test_a_vehicle_whose_address_changed_is_found_again(self, scene):
+        here = scene()
+        moved = here.another((30.0, 0.0))
+        moved.mode, moved.armed = here.rover.mode, True
+        here.rover.mute = True
+        here.hand.movers[:] = [moved]
+        moved.time = here.rover.time
+        here.hand.run(8.0)
+        here.hand.run(3.0, lambda: here.body.go(1.0, 0.0))
+        assert here.body.read().x == pytest.approx(32.5, abs=0.4)
+
+    def test_a_late_position_is_none(self, scene):
+        here = scene()
+        here.hand.run(5.0)
+        ignored, place = here.vehicle.ignored, here.body.read()
+        old = words.MAVLink_global_position_int_message(100, 0, 10**9, 0, 0, 0, 0, 0, 0)
+        here.rover.say(old)
+        here.body.tick()
+        assert here.vehicle.ignored == ignored + 1
+        assert here.body.read() == place
+
+
+class TestKey:
+    """Signed messages: who has no key is not heard."""
+
+    def signs(self, rover, key):
+        rover.line.signing.secret_key, rover.line.signing.sign_outgoing = key, True
+        rover.line.signing.timestamp = 10**14  # later than today
+
+    def test_with_one_key_both_hear_each_other(self, scene):
+        here = scene(begun=False, key=key_of("sesame"))
+        self.signs(here.rover, key_of("sesame"))
+        here.body.begin(arm=True)
+        here.hand.run(3.0, lambda: here.body.go(1.0, 0.0))
+        assert here.speed == pytest.approx(1.0, abs=0.01)
+
+    def test_without_or_with_another_nobody_is_heard(self, scene):
+        for key in (None, key_of("salami")):
+            here = scene(begun=False, key=key_of("sesame"))
+            if key:
+                self.signs(here.rover, key)
+            with pytest.raises(BodyError, match="no vehicle is heard"):
+                here.body.begin(arm=True)
