@@ -40,7 +40,7 @@ MODES = {
     11: "RTL",
     12: "SMART_RTL",
     15: "GUIDED",
-    16: "INITIALISING",
+    16: "INITIALIZING",
 }
 HOLD, GUIDED = 4, 15
 
