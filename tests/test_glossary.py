@@ -28,6 +28,7 @@ range read reason recorded reproduce resample restart result robustness rotation
 scored seek seen self sensing sensitivity sensor server several shoal show side signal simulate simulation size stamp
 startup statement statistic stop stopped strategy style suited summary swept table text tide top tree turn uniform
 unknown varied vehicle version view wanted watch watched weight word writer xml
+datagram port serial stream unready
 """  # words that mean what any dictionary says, and file formats
 PLAIN = frozenset(DICTIONARY.split())
 KINDS = [*TARGETS, *DISTURBANCES]

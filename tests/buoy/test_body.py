@@ -1,18 +1,23 @@
 """What `--body` may say."""
 
+import re
 import socket
 import sys
 import threading
+import time
 import types
+from pathlib import Path
 
 import pytest
 
 from shoal.buoy.body import open_body
 from shoal.buoy.connection import Stream, connect
 from shoal.buoy.errors import BodyError
+from shoal.buoy.mavlink import MODES
 from shoal.core.errors import MissingExtraError, ScenarioError
-from shoal.scenario.load import read_table
+from shoal.scenario.load import load, read_table, to_toml
 
+ROOT = Path(__file__).resolve().parents[2]
 AT_SEA = {"area": {"width": 400.0, "height": 200.0, "origin": (5.3, 60.4)}}
 
 
@@ -75,7 +80,9 @@ class TestNames:
 class TestWhole:
     """From the words of the command line to a boat that goes, in real time."""
 
-    def test_a_body_is_begun_beats_by_itself_and_holds_at_the_end(self):
+    @pytest.fixture
+    def sailing(self):
+        """A rover that sails twenty times as fast as time, and the port that it speaks to."""
         pytest.importorskip("pymavlink", reason="pymavlink is not installed: pip install '.[mavlink]'")
         from rovers import Rover
 
@@ -88,24 +95,39 @@ class TestWhole:
             while not done.wait(0.005):
                 rover.advance(0.1)
 
-        sailing = threading.Thread(target=sail)
-        sailing.start()
-        try:
-            body = open_body(
-                f"mavlink:udp:{place[0]}:{place[1]}#3", {**read_table("oceans2020"), **AT_SEA}, 0, arm=True
-            )
-            body.go(1.0, 0.0)
-            sent = len(rover.setpoints)
-            while len(rover.setpoints) < sent + 3:  # the thread of the body says them
-                done.wait(0.01)
-            assert body.read().x > 0.0
-            body.close()
-        finally:
-            done.set()
-            sailing.join()
-            rover.socket.close()
-        assert rover.mode == 4  # HOLD
-        assert not [each for each in threading.enumerate() if each.name.startswith("shoal udp")]
+        sailor = threading.Thread(target=sail)
+        sailor.start()
+        yield rover, place[1]
+        done.set()
+        sailor.join()
+        rover.socket.close()
+
+    def test_a_body_is_begun_beats_by_itself_and_holds_at_the_end(self, sailing):
+        rover, port = sailing
+        scenario = {**read_table("oceans2020"), **AT_SEA}
+        body = open_body(f"mavlink:udp:127.0.0.1:{port}#3", scenario, 0, arm=True)
+        body.go(1.0, 0.0)
+        sent = len(rover.setpoints)
+        while len(rover.setpoints) < sent + 3:  # the thread of the body says them
+            time.sleep(0.01)
+        assert body.read().x > 0.0
+        body.close()
+        assert MODES[rover.mode] == "HOLD"
+        assert not [each for each in threading.enumerate() if each.name == f"shoal udp:127.0.0.1:{port}"]
+
+    def test_the_code_of_the_page_steers_it(self, sailing, tmp_path, monkeypatch, capsys):
+        rover, port = sailing
+        monkeypatch.chdir(tmp_path)
+        scenario = load({**read_table("oceans2020"), **AT_SEA}, steps=8, strategy="random-walk")
+        (tmp_path / "mine.toml").write_text(to_toml(scenario), encoding="utf-8")
+        page = (ROOT / "docs/how-to/ardupilot.md").read_text(encoding="utf-8")
+        code = re.findall(r"```python\n(.*?)```", page, re.DOTALL)[0]
+        changed = code.replace("14550", str(port)).replace("udp:127.0.0.1:14600", "none")
+        assert changed.count(str(port)) == changed.count('"none"') == 1
+        exec(changed, {})
+        assert MODES[rover.mode] == "HOLD"
+        assert any(message.vx or message.vy for _, message in rover.setpoints)
+        assert capsys.readouterr().out == ""  # nothing was in the way
 
 
 class TestSerial:

@@ -70,6 +70,7 @@ class MavlinkBody:
         self._told_at = self._steered_at = self._greeted_at = self._asked_at = -math.inf
         self._lock = threading.RLock()
         self._closed = threading.Event()
+        self._thread: threading.Thread | None = None
         self.silences = 0
 
     def begin(self, *, arm: bool = False) -> str:
@@ -156,10 +157,13 @@ class MavlinkBody:
                 now = self.tick()
             self._closed.set()
             self.vehicle.close()
+        if self._thread is not None:
+            self._thread.join()
 
     def beat(self) -> None:
         """Call `tick` in a thread from now on, until it is closed."""
-        threading.Thread(target=self._beat, name=f"shoal {self.vehicle.name}", daemon=True).start()
+        self._thread = threading.Thread(target=self._beat, name=f"shoal {self.vehicle.name}", daemon=True)
+        self._thread.start()
 
     def _beat(self) -> None:
         while not self._closed.wait(REPEAT / 2):
