@@ -54,6 +54,10 @@ class TestNames:
         with pytest.raises(ScenarioError, match=r"area.origin: is not given"):
             open_body("mavlink:udp:127.0.0.1:0", "oceans2020", 0)
 
+    def test_a_key_of_another_length_is_refused(self):
+        with pytest.raises(BodyError, match="has 6 bytes"):
+            open_body("mavlink:udp:127.0.0.1:0", {**read_table("oceans2020"), **AT_SEA}, 0, key=b"sesame")
+
     def test_a_port_that_somebody_has_is_one_error(self):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
             taken.bind(("127.0.0.1", 0))

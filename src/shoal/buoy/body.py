@@ -31,7 +31,7 @@ class Body(Protocol):
         """
 
     def stop(self) -> None:
-        """Lie still until the next `go`."""
+        """Stop, until the next `go`."""
 
     def close(self) -> None:
         """Stop for good, and let go of the vehicle."""

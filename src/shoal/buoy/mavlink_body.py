@@ -20,6 +20,7 @@ from shoal.scenario.schema import Scenario
 
 REPEAT, BEAT = 0.2, 1.0  # [s] between two set-points, and two heartbeats or requests
 HORIZON = 3.0  # [s] for which a vehicle that hears no more goes on: ArduPilot's GUID_TIMEOUT
+BRAKING = 2.0  # [s] for which it is told to lie still; told nothing more, a boat of ArduPilot's keeps its place
 PATIENCE = 30.0  # [s] to wait for each thing that a vehicle is asked for at the start
 PARTING = 2.0  # [s] to wait for HOLD at the end
 ASTRAY = 10.0  # [m] outside the fence, in small arenas: farther out it is brought back by people
@@ -29,9 +30,10 @@ class MavlinkBody:
     """A rover or boat on a MAVLink connection.
 
     It is steered only while its mode is GUIDED and it is armed. Who switches to another mode has it: nothing is sent
-    until it is in GUIDED again, which is never asked for after `begin`. It is told to lie still when nobody calls `go`
-    for `silence` seconds, when its heartbeat is lost, when its position is too old, and when it is far outside the
-    fence. Somebody must call `tick` every REPEAT seconds; `beat` does it in a thread.
+    until it is in GUIDED again, which is never asked for after `begin`. It is stopped when nobody calls `go` for
+    `silence` seconds, when its heartbeat is lost, when its position is too old, and when it is far outside the fence:
+    for BRAKING seconds it is told to lie still, then nothing. Somebody must call `tick` every REPEAT seconds; `beat`
+    does it in a thread.
 
     Parameters
     ----------
@@ -39,7 +41,7 @@ class MavlinkBody:
     frame : local meters of the arena
     fence : where it may be, and its top speed
     detector : what says whether a target is there
-    silence : [s] without a command after which it lies still
+    silence : [s] without a command after which it is stopped
     clock : [s], never goes back
     wait : lets some seconds pass
 
@@ -67,7 +69,7 @@ class MavlinkBody:
         self._clock = clock
         self._wait = wait
         self._wanted: tuple[float, float] | None = None
-        self._told_at = self._steered_at = self._greeted_at = self._asked_at = -math.inf
+        self._told_at = self._moved_at = self._steered_at = self._greeted_at = self._asked_at = -math.inf
         self._lock = threading.RLock()
         self._closed = threading.Event()
         self._thread: threading.Thread | None = None
@@ -137,7 +139,7 @@ class MavlinkBody:
                 raise UnreadyError(self.vehicle.name, *trouble)
 
     def stop(self) -> None:
-        """Lie still until the next `go`."""
+        """Stop, until the next `go`."""
         with self._lock:
             self._wanted = None
             self._steered_at = -math.inf
@@ -196,8 +198,10 @@ class MavlinkBody:
             return
         self._steered_at = now
         if self._wanted is None or self._trouble(now):
-            self.vehicle.steer(0.0, 0.0)
+            if now - self._moved_at <= BRAKING:
+                self.vehicle.steer(0.0, 0.0)
             return
+        self._moved_at = now
         x, y, vx, vy = self._moving()
         age = self.vehicle.age(now)
         told = kept_inside(self._fence, x + vx * age, y + vy * age, *self._wanted, HORIZON)
@@ -272,6 +276,8 @@ def open_mavlink_body(
     if mark and not (number.isascii() and number.isdigit() and len(number) < 4 and 1 <= int(number) <= 255):
         problem = f"{quoted(number)} is no number of a system"
         raise BodyError("--body", problem, "write one from 1 to 255 after the #, or leave it out")
+    if key is not None and len(key) != 32:
+        raise BodyError("key", f"has {len(key)} bytes", "give 32; mavlink.key_of makes them of a phrase")
     if scenario.area.origin is None:
         raise ScenarioError("area.origin", "is not given", "say at what longitude and latitude (0, 0) lies")
     fence, frame = fence_of(scenario, id), Frame(scenario.area.origin)

@@ -8,6 +8,7 @@ from shoal.buoy.mavlink import (
     CUSTOM_MODE,
     GUIDED,
     MODES,
+    NO_AUTOPILOT,
     POSITION,
     SET_INTERVAL,
     SET_MODE,
@@ -98,6 +99,8 @@ class Vehicle:
     def _greet(self, message: Heartbeat, peer: Peer, now: float) -> None:
         """Heed the vehicle; from another address only after it was silent at the old one."""
         known = self.heartbeat
+        if message.autopilot == NO_AUTOPILOT:  # a ground station, a camera
+            return
         if known is None:
             if self._system not in (None, message.system):
                 self.ignored += 1
