@@ -70,9 +70,19 @@ class TestShore:
         assert SEA.outside(*after(x, y, told, 0.5)) == pytest.approx(ISLAND - far - 1.0, abs=0.05)
 
     def test_it_slides_along(self):
-        vx, vy = kept_inside(SEA, 9.0, 5.0, 1.0, 1.0, HORIZON)
-        assert vy > 0.5
-        assert vx < 0.9
+        vx, vy = kept_inside(SEA, 9.99, 0.0, 1.0, 1.0, HORIZON)
+        assert vy == pytest.approx(1.0, abs=0.05)
+        assert vx == pytest.approx(0.0, abs=0.05)
+
+    def test_at_the_end_of_an_inlet_it_stops(self):
+        inlet = Fence(200.0, 100.0, 2.0, depth=lambda x, y: (10.0 - x - 3.0 * abs(y)) / math.sqrt(10.0), cell=1.0)
+        for y in (-1.0, 0.0, 0.5):
+            x = 0.0
+            for _ in range(300):  # 0.1 s each
+                vx, vy = kept_inside(inlet, x, y, 2.0, 0.1, HORIZON)
+                x, y = x + 0.1 * vx, y + 0.1 * vy
+                assert inlet.depth(x, y) >= 0.0
+            assert x > 5.0
 
     def test_head_on_it_stops(self):
         x = 0.0

@@ -412,9 +412,16 @@ class TestNoise:
         here = scene()
         intruder, other = here.another((90.0, 0.0)), here.another((90.0, 0.0), system=9)
         for each in (intruder, other):
-            each.interval = 0.2
+            each.interval, each.time = 0.2, here.rover.time + 5.0
             here.hand.movers.append(each)
-        here.hand.run(5.0, lambda: here.body.go(1.0, 0.0))
+        line = words.MAVLink(None, 9, 1)  # that shares the address of the vehicle, such as behind a router
+
+        def go():
+            far = words.MAVLink_global_position_int_message(10**6, 604100000, 53000000, 0, 0, 0, 0, 0, 0)
+            here.rover.socket.sendto(far.pack(line), here.rover.to)
+            here.body.go(1.0, 0.0)
+
+        here.hand.run(5.0, go)
         assert here.body.read().x == pytest.approx(4.5, abs=0.4)
         assert intruder.setpoints == other.setpoints == []
         assert here.vehicle.ignored > 20
