@@ -100,7 +100,7 @@ class TestRecorded:
         track = tmp_path / "track.csv"
         rows = [f"2026-06-01T06:{minute:02}:00Z,{50.8 + 0.001 * minute:.6f},-1.3" for minute in range(10)]
         track.write_text("time,lat,lon\n" + "\n".join(rows) + "\n", encoding="utf-8")
-        return load("oceans2020", target_track=str(track))
+        return load("oceans2020", target_track=str(track), **{"fleets.0.sensor_radius": 7.0})
 
     def test_is_seen_where_it_is_at_the_time(self, scenario):
         time = [0.0]
@@ -109,7 +109,8 @@ class TestRecorded:
         assert not detector(x, y)
         time[0] = 120.0
         assert detector(x, y)
-        reach = radius + scenario.fleets[0].sensor_radius
+        assert radius > 0.0
+        reach = radius + 7.0
         assert detector(x + 0.999 * reach, y)
         assert not detector(x + 1.001 * reach, y)
 
