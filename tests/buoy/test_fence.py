@@ -30,6 +30,13 @@ class TestRectangle:
         assert BOX.outside(*after(x, y, told)) <= 1e-9
         assert math.hypot(*told) <= BOX.top_speed * (1 + 1e-12)
 
+    @given(within_x, within_y, speed, speed, st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.floats(0.0, 30.0))
+    def test_wherever_it_is_within_the_slack_it_ends_inside(self, x, y, vx, vy, share_x, share_y, slack):
+        seen = x + share_x * slack, y + share_y * slack
+        if BOX.outside(*seen) == 0.0:
+            told = kept_inside(BOX, *seen, vx, vy, HORIZON, slack)
+            assert BOX.outside(*after(x, y, told)) <= 1e-9
+
     @given(st.floats(-190.0, 190.0), st.floats(-90.0, 90.0), speed, speed)
     def test_far_from_the_edges_it_is_what_was_wanted_or_as_fast_as_can_be(self, x, y, vx, vy):
         told = kept_inside(BOX, x, y, vx, vy, HORIZON)
@@ -68,6 +75,16 @@ class TestShore:
         told = kept_inside(SEA, x, y, vx, vy, HORIZON)
         assert math.hypot(*told) == pytest.approx(SEA.top_speed)
         assert SEA.outside(*after(x, y, told, 0.5)) == pytest.approx(ISLAND - far - 1.0, abs=0.05)
+
+    @given(within_x, within_y, speed, speed, st.floats(0.0, 20.0))
+    def test_with_slack_it_comes_no_closer_than_that_or_than_it_was(self, x, y, vx, vy, slack):
+        depth = SEA.depth(x, y)
+        if depth >= 0.0:
+            told = kept_inside(SEA, x, y, vx, vy, HORIZON, slack)
+            assert SEA.depth(*after(x, y, told)) >= min(slack, depth) - 1e-9
+
+    def test_off_the_shore_it_may_go_whatever_the_slack(self):
+        assert kept_inside(SEA, 9.0, 0.0, -1.5, 0.0, HORIZON, 5.0) == (-1.5, 0.0)
 
     def test_it_slides_along(self):
         vx, vy = kept_inside(SEA, 9.99, 0.0, 1.0, 1.0, HORIZON)

@@ -369,6 +369,31 @@ class TestFence:
         assert 199.0 < most[0] <= 200.0
         assert 99.0 < most[1] <= 100.0
 
+    @pytest.mark.parametrize("seed", range(4))
+    def test_whatever_is_lost_goes_blind_or_changes_hands_it_stays_inside_and_slow(self, scene, seed):
+        chance = random.Random(seed)
+        here = scene(at=(190.0, -90.0), fence=FENCE, lost=0.2)
+        rover, far, fastest = here.rover, [0.0, 0.0], [0.0]
+        wanted = [(5.0, -5.0)]
+
+        def go():
+            if chance.random() < 0.03:
+                rover.mute, rover.blind = chance.random() < 0.3, chance.random() < 0.3
+                rover.mode = words.ROVER_MODE_MANUAL if chance.random() < 0.1 else words.ROVER_MODE_GUIDED
+            if chance.random() < 0.05:
+                wanted[0] = (chance.uniform(-3.0, 9.0), chance.uniform(-9.0, 3.0))
+            if chance.random() < 0.9:
+                with suppress(UnreadyError):
+                    here.body.go(*wanted[0])
+            far[:] = (max(most, abs(at)) for most, at in zip(far, here.place, strict=True))
+            fastest[0] = max(fastest[0], here.speed)
+
+        here.hand.run(120.0, go)
+        assert far[0] <= 200.0
+        assert far[1] <= 100.0
+        assert max(far[0] - 200.0, far[1] - 100.0) > -3.0  # it did try
+        assert 1.0 < fastest[0] <= 2.001
+
     def test_from_outside_it_comes_back(self, scene):
         here = scene(at=(203.0, -104.0))
         here.hand.run(6.0, lambda: here.body.go(2.0, -2.0))

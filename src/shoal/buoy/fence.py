@@ -59,18 +59,21 @@ def fence_of(scenario: Source, id: int) -> Fence:
     return Fence(told.half_x, told.half_y, top_speed, lambda x, y: float(_clearance(land, x, y)), shore.cell)
 
 
-def kept_inside(fence: Fence, x: float, y: float, vx: float, vy: float, horizon: float) -> tuple[float, float]:
+def kept_inside(
+    fence: Fence, x: float, y: float, vx: float, vy: float, horizon: float, slack: float = 0.0
+) -> tuple[float, float]:
     """Return the velocity that a vehicle is told instead of the wanted one: in `horizon` seconds it is still inside.
 
-    What would take it over an edge of the rectangle is cut, the rest stays: v_n <= d / horizon, d the way to the edge.
-    At the shore it slides along, or stops. From outside it comes straight back, at top speed.
+    What would take it over an edge of the rectangle is cut, the rest stays: v_n <= (d - slack) / horizon, d the way to
+    the edge. At the shore it slides along, or stops. From outside it comes straight back, at top speed.
 
     Parameters
     ----------
     fence : where it may be
-    x, y : where it is [m]
+    x, y : where it was seen last [m]
     vx, vy : the velocity wanted [m/s]; one that is not finite stops it
     horizon : for how long it may go on with what it was told last [s]
+    slack : how far it may be from where it was seen [m]
     """
     if not (math.isfinite(vx) and math.isfinite(vy)):
         return 0.0, 0.0
@@ -79,58 +82,69 @@ def kept_inside(fence: Fence, x: float, y: float, vx: float, vy: float, horizon:
         return fence.top_speed * home_x, fence.top_speed * home_y
     speed = math.hypot(vx, vy)
     scale = min(1.0, fence.top_speed / speed) if speed > 0.0 else 0.0
-    vx, vy = _within(fence, x, y, scale * vx, scale * vy, horizon)
-    share = _share_afloat(fence, x, y, vx * horizon, vy * horizon)
+    most = _Most(*(max(0.0, way - slack) / horizon for way in _ways(fence, x, y)))
+    vx, vy = most.cut(scale * vx, scale * vy)
+    if fence.depth is None:
+        return vx, vy
+    closest = min(slack, fence.depth(x, y))  # no closer to the shore than this, or than it is
+    share = _share_afloat(fence, closest, x, y, vx * horizon, vy * horizon)
     if share == 1.0:
         return vx, vy
-    along_x, along_y = _within(fence, x, y, *_along_shore(fence, x, y, vx, vy, share, horizon), horizon)
-    if _share_afloat(fence, x, y, along_x * horizon, along_y * horizon) == 1.0:
+    far = share * horizon
+    out_x, out_y = _seaward(fence.depth, fence.cell, x + vx * far, y + vy * far)
+    ashore = min((1.0 - share) * (vx * out_x + vy * out_y), 0.0)
+    along_x, along_y = most.cut(vx - ashore * out_x, vy - ashore * out_y)
+    if _share_afloat(fence, closest, x, y, along_x * horizon, along_y * horizon) == 1.0:
         return along_x, along_y
     return share * vx, share * vy
 
 
+class _Most(NamedTuple):
+    """How fast it may go to each side of the rectangle [m/s]."""
+
+    west: float
+    east: float
+    south: float
+    north: float
+
+    def cut(self, vx: float, vy: float) -> tuple[float, float]:
+        """A velocity no faster than that."""
+        return min(max(vx, -self.west), self.east), min(max(vy, -self.south), self.north)
+
+
+def _ways(fence: Fence, x: float, y: float) -> tuple[float, float, float, float]:
+    """How far it is to each side of the rectangle [m]: west, east, south, north."""
+    return fence.half_x + x, fence.half_x - x, fence.half_y + y, fence.half_y - y
+
+
 def _homeward(fence: Fence, x: float, y: float) -> tuple[float, float]:
     """The direction, of length 1, of the nearest place inside; (0, 0) inside, and where there is no telling."""
-    dx = max(-fence.half_x - x, 0.0) or min(fence.half_x - x, 0.0)
-    dy = max(-fence.half_y - y, 0.0) or min(fence.half_y - y, 0.0)
+    west, east, south, north = _ways(fence, x, y)
+    dx = max(-west, 0.0) + min(east, 0.0)
+    dy = max(-south, 0.0) + min(north, 0.0)
     if fence.depth is not None and not (dx or dy) and fence.depth(x, y) < 0.0:
         dx, dy = _seaward(fence.depth, fence.cell, x, y)
     size = math.hypot(dx, dy)
     return (dx / size, dy / size) if size > 0.0 else (0.0, 0.0)
 
 
-def _within(fence: Fence, x: float, y: float, vx: float, vy: float, horizon: float) -> tuple[float, float]:
-    """A velocity that ends inside the rectangle, from inside."""
-    vx = min(max(vx, (-fence.half_x - x) / horizon), (fence.half_x - x) / horizon)
-    vy = min(max(vy, (-fence.half_y - y) / horizon), (fence.half_y - y) / horizon)
-    return vx, vy
+def _share_afloat(fence: Fence, closest: float, x: float, y: float, dx: float, dy: float) -> float:
+    """How much of a way comes no closer to the shore than `closest` [m], 0 to 1.
 
-
-def _share_afloat(fence: Fence, x: float, y: float, dx: float, dy: float) -> float:
-    """How much of a way is on the water, 0 to 1: in strides that cannot reach the shore, and short ones close to it."""
+    In strides that cannot get there, and short ones near it.
+    """
+    assert fence.depth is not None
     length = math.hypot(dx, dy)
-    if fence.depth is None or length == 0.0:
-        return 1.0
     gone, safe = 0.0, 0.0
-    while True:
+    while length > 0.0:
         depth = fence.depth(x + dx * gone, y + dy * gone)
-        if depth < 0.0:
+        if depth < closest:
             return safe
         safe = gone
         if gone == 1.0:
-            return 1.0
-        gone = min(1.0, gone + max(0.5 * depth, _FINEST * fence.cell) / length)
-
-
-def _along_shore(
-    fence: Fence, x: float, y: float, vx: float, vy: float, share: float, horizon: float
-) -> tuple[float, float]:
-    """The velocity without what goes ashore where the way of `horizon` seconds leaves the water."""
-    assert fence.depth is not None  # or all of the way would be afloat
-    far = share * horizon
-    out_x, out_y = _seaward(fence.depth, fence.cell, x + vx * far, y + vy * far)
-    ashore = min((1.0 - share) * (vx * out_x + vy * out_y), 0.0)
-    return vx - ashore * out_x, vy - ashore * out_y
+            break
+        gone = min(1.0, gone + max(0.5 * (depth - closest), _FINEST * fence.cell) / length)
+    return 1.0
 
 
 def _seaward(depth: Callable[[float, float], float], cell: float, x: float, y: float) -> tuple[float, float]:

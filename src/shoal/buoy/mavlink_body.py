@@ -202,9 +202,9 @@ class MavlinkBody:
                 self.vehicle.steer(0.0, 0.0)
             return
         self._moved_at = now
-        x, y, vx, vy = self._moving()
-        age = self.vehicle.age(now)
-        told = kept_inside(self._fence, x + vx * age, y + vy * age, *self._wanted, HORIZON)
+        x, y, _, _ = self._moving()
+        gone = self._fence.top_speed * self.vehicle.age(now)
+        told = kept_inside(self._fence, x, y, *self._wanted, HORIZON, gone)
         assert self.vehicle.fix is not None
         self.vehicle.steer(*over_ground(self._frame, self.vehicle.fix, *told))
 
