@@ -30,6 +30,7 @@ class Rover:
         self.line.robust_parsing = True
         self.chance, self.lost = random.Random(1), lost
         self.time, self.beat_at, self.fix_at, self.interval = 0.0, 0.0, 0.0, None
+        self.delay, self.queue = 0.0, []  # [s] on the way to the body
         self.mute = self.blind = False  # says nothing at all; says nothing of its place
         self.setpoint, self.set_at, self.setpoints, self.heard = (0.0, 0.0), -math.inf, [], []
 
@@ -37,7 +38,9 @@ class Rover:
         data = message.pack(self.line)
         self.line.seq = (self.line.seq + 1) % 256
         if not self.mute and self.chance.random() >= self.lost:
-            self.socket.sendto(data, self.to)
+            self.queue.append((self.time + self.delay, data))
+        while self.queue and self.queue[0][0] <= self.time:
+            self.socket.sendto(self.queue.pop(0)[1], self.to)
 
     def listen(self):
         while True:

@@ -462,6 +462,25 @@ class TestNoise:
         here.hand.run(3.0, lambda: here.body.go(1.0, 0.0))
         assert here.body.read().x == pytest.approx(32.5, abs=0.4)
 
+    def test_positions_that_a_slow_line_brings_late_are_as_old_as_they_are(self, scene):
+        here = scene()
+        here.hand.run(5.0)
+        here.rover.delay = 3.0
+        here.hand.run(6.0)
+        assert here.vehicle.silent(here.hand.now) < 2.0
+        with pytest.raises(UnreadyError, match=r"said 3\.\d s ago where it is"):
+            here.body.read()
+        here.rover.delay, here.rover.queue = 0.0, []
+        here.hand.run(1.0)
+        assert here.body.read().x == pytest.approx(0.0, abs=0.1)
+
+    def test_clocks_that_go_apart_make_no_position_old(self, scene):
+        here = scene()
+        for _ in range(300):  # the rover's loses 0.5 ms a second
+            here.hand.run(1.0)
+            here.rover.time -= 0.0005
+        assert here.vehicle.age(here.hand.now) < 0.3
+
     def test_a_late_position_is_none(self, scene):
         here = scene()
         here.hand.run(5.0)

@@ -23,6 +23,7 @@ from shoal.core.text import quoted
 
 LOST = 4.0  # [s] without a heartbeat: three are missed
 STALE = 2.0  # [s] an older position is none
+DRIFT = 1e-3  # [1] two clocks may go apart by so much of the time
 RESTARTED = 10.0  # [s] by which its clock must fall back for it to have been started anew
 
 Problem = tuple[str, str]  # what is wrong, and what to do about it
@@ -54,6 +55,7 @@ class Vehicle:
         self._system = system
         self._peer: Peer = None
         self._heard_at = self._fixed_at = -math.inf
+        self._offset = math.inf  # of our clock against its, the way of the quickest message in it [s]
         self.heartbeat: Heartbeat | None = None
         self.fix: Fix | None = None
         self.stranger: Heartbeat | None = None
@@ -86,15 +88,21 @@ class Vehicle:
         elif self.heartbeat is None or message.system != self.heartbeat.system or peer != self._peer:
             self.ignored += 1
         elif isinstance(message, Fix):
-            late = self.fix is not None and -RESTARTED < message.clock - self.fix.clock <= 0.0
-            if late:
-                self.ignored += 1
-            else:
-                self.fix, self._fixed_at = message, now
+            self._locate(message, now)
         elif isinstance(message, Answer):
             self.answers[message.command] = message.result
         elif isinstance(message, Notice):
             self.notices = [*self.notices[-4:], message.text]
+
+    def _locate(self, message: Fix, now: float) -> None:
+        """Keep a position, with the time at which it was so: by the vehicle's clock and the quickest message so far."""
+        since = message.clock - self.fix.clock if self.fix is not None else -math.inf
+        if -RESTARTED < since <= 0.0:
+            self.ignored += 1
+            return
+        offset = now - message.clock
+        self._offset = min(offset, self._offset + DRIFT * since) if since > 0.0 else offset
+        self.fix, self._fixed_at = message, message.clock + self._offset
 
     def _greet(self, message: Heartbeat, peer: Peer, now: float) -> None:
         """Heed the vehicle; from another address only after it was silent at the old one."""
@@ -114,6 +122,8 @@ class Vehicle:
         elif peer != self._peer and self.silent(now) <= LOST:
             self.ignored += 1
             return
+        if peer != self._peer:  # it may be another, or have been started anew
+            self.fix, self._fixed_at = None, -math.inf
         self.heartbeat, self._peer, self._heard_at = message, peer, now
 
     @property
