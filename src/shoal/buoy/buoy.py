@@ -41,6 +41,7 @@ class Buoy:
     briefing : what it is told before it leaves
     told : names of the fields that reports tell besides place, velocity and whether on target, for Report.from_bytes
     neighbors : k, to how many neighbors it listens; changes where the scenario lets k adapt
+    wanted : the velocity that its strategy wanted last [m/s], before its limits: for a body that knows them itself
 
     Raises
     ------
@@ -67,6 +68,8 @@ class Buoy:
         self._adaptive = scenario.network.adaptive
         self._mind = _mind_of(crew, scenario.seed if seed is None else seed, run)
         self._begun = False
+        self._contact = 0.0
+        self.wanted = (0.0, 0.0)
         if self._adaptive:
             everybody = scenario.agents - 1
             bounds = (everybody, everybody) if strategy.hears_all else (self._adaptive.fewest, self._adaptive.most)
@@ -78,6 +81,22 @@ class Buoy:
         """What it remembers, by name."""
         return dict(self._mind.remembered())
 
+    @property
+    def state(self) -> tuple[Any, ...]:
+        """All that changes in it, to go back to by `restore`, or to go on from after a restart."""
+        return tuple(self._mind.remembered().values()), self.neighbors, self._contact
+
+    def restore(self, state: tuple[Any, ...]) -> None:
+        """Be as it was when it had this state.
+
+        Parameters
+        ----------
+        state : what `state` was
+        """
+        memory, self.neighbors, self._contact = state
+        self._mind.recall(memory)
+        self._begun = True
+
     def begin(self, reading: Reading) -> None:
         """Set up the memory before the first step; `decide` and `report` do so if it was not done.
 
@@ -85,7 +104,7 @@ class Buoy:
         ----------
         reading : what its instruments say where it lies; only the position counts
         """
-        start = reading._replace(vx=0.0, vy=0.0, on_target=False)
+        start = Reading(reading.x, reading.y, 0.0, 0.0, False)
         with self._crew.naming_errors():
             self._mind.begin(self._own(start, 0))
         self._begun = True
@@ -102,8 +121,8 @@ class Buoy:
         ------
         MessageError : the reading holds a number that is not finite
         """
-        x, y, vx, vy, on_target = reading
-        if not all(map(math.isfinite, (x, y, vx, vy))):
+        x, y, vx, vy, on_target, drift_x, drift_y, _ = reading
+        if not all(map(math.isfinite, (x, y, vx, vy, drift_x, drift_y))):
             problem = f"of agent {self.id} holds a number that is not finite, in step {step}"
             raise MessageError("reading", problem, "say and decide nothing until the instrument is well")
         if not self._begun:
@@ -140,23 +159,23 @@ class Buoy:
             problem = f"strategy {self._crew.name!r} wanted a velocity that is not finite, in step {step}"
             raise StrategyError(self._crew.source, problem, "guard divisions, roots and logarithms")
         self._adapt(me, heard)
+        self.wanted = vx, vy
         return Decision(*self._limited(me, vx, vy), report)
 
     def _own(self, reading: Reading, step: int) -> Own:
-        x, y, vx, vy, on_target = reading
         return Own(
             self.id,
-            float(x),
-            float(y),
-            float(vx),
-            float(vy),
-            bool(on_target),
+            *map(float, reading[:4]),
+            bool(reading.on_target),
             self._make.max_speed,
             self._time_step,
             step * self._time_step,
             self.fleet,
             self.briefing,
             NO_TRUTH,
+            float(reading.drift_x),
+            float(reading.drift_y),
+            bool(reading.aground),
         )
 
     def _heard(self, me: Own, inbox: Iterable[Report]) -> list[Report]:

@@ -26,6 +26,10 @@ class CompiledMind:
         """Every field of the memory by name."""
         return dict(zip(self.crew.memory, self._numbers[0].tolist(), strict=False))
 
+    def recall(self, numbers: tuple[float, ...]) -> None:
+        """Remember these numbers, in the order of the fields."""
+        self._numbers[0, : len(numbers)] = numbers
+
     def told(self) -> Any:
         """What reports tell of the memory, which begins with it."""
         return self._told(*self._numbers[0, : len(self.crew.told)].tolist())

@@ -27,6 +27,11 @@ class PlainMind:
         """Every field of the memory by name."""
         return {name: getattr(self.memory, name) for name in self.crew.memory}
 
+    def recall(self, numbers: tuple[float, ...]) -> None:
+        """Remember these numbers, in the order of the fields."""
+        for name, number in zip(self.crew.memory, numbers, strict=True):
+            setattr(self.memory, name, number)
+
     def told(self) -> Any:
         """What reports tell of the memory."""
         return self._told(*(getattr(self.memory, name) for name in self.crew.told))
@@ -38,7 +43,9 @@ class PlainMind:
     def decide(self, me: Own, inbox: list[Report], step: int) -> tuple[float, float]:
         """The velocity wanted in a step [m/s]; `inbox` has the reports heard in the order of ids."""
         params = self.crew.params
-        listener = me._replace(briefing=NO_BRIEFING, truth=NO_TRUTH)  # pairs know no more, in the engine too
+        listener = me._replace(  # pairs know no more, in the engine too
+            briefing=NO_BRIEFING, truth=NO_TRUTH, drift_x=0.0, drift_y=0.0, aground=False
+        )
         sums, leader, lowest = [0.0] * self.crew.sums, None, math.inf
         sums_up = contract.has_influence(params)
         for other in inbox:

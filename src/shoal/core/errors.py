@@ -53,6 +53,10 @@ class MessageError(ShoalError):
     """A report that cannot be sent, or read."""
 
 
+class FleetError(ShoalError):
+    """A fleet of buoys that cannot start or go on."""
+
+
 class MissingExtraError(ShoalError):
     """An optional library is needed and absent."""
 

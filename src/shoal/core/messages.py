@@ -30,13 +30,19 @@ class Briefing(NamedTuple):
 
 
 class Reading(NamedTuple):
-    """What an agent's own instruments say: place [m], velocity [m/s], and whether its sensor has a target."""
+    """What an agent's own instruments say: place [m], velocity [m/s], and whether its sensor has a target.
+
+    drift_x, drift_y : what water and wind added in the last step [m/s]; aground : whether land stopped it then
+    """
 
     x: float
     y: float
     vx: float
     vy: float
     on_target: bool
+    drift_x: float = 0.0
+    drift_y: float = 0.0
+    aground: bool = False
 
 
 class Truth(NamedTuple):

@@ -23,7 +23,7 @@ def set_out(stage, places, lifetimes, losses):
     """Place agents and targets, and draw when agents will be lost.
 
     places, lifetimes : (F,) index into PLACES and mean lifetime [s] of each fleet, 0 for ever
-    losses : (C, 3) step, fleet (-1: any) and number of agents of each loss
+    losses : (C, 4) step, fleet (-1: any), number of agents and the agent (-1: by lot) of each loss
     """
     world = part(stage, WORLD)
     swarm = part(stage, SWARM)
@@ -40,8 +40,11 @@ def set_out(stage, places, lifetimes, losses):
             enter(part(stage, PHASES).launch, stage, places[swarm.fleet[i]], i, 0, run_key)
     draw_sides(swarm, targets, world, run_key)
     draw_lifetimes(swarm, world, lifetimes, run_key)
-    for number, fleet, count in losses:
-        draw_losses(swarm, world, number, fleet, count, run_key)
+    for number, fleet, count, agent in losses:
+        if agent >= 0:
+            swarm.leaves[agent] = min(swarm.leaves[agent], number)
+        else:
+            draw_losses(swarm, world, number, fleet, count, run_key)
     update_presence(swarm, world, 0)
     if world.inexact:
         begin_errors(swarm, world, start_key)

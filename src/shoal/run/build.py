@@ -151,10 +151,14 @@ def build_nature(scenario: Scenario, lanes: int) -> Nature:
 
 
 def losses_of(scenario: Scenario) -> Any:
-    """Step, fleet (-1: any) and count of every loss, in the order of the steps, (C, 3)."""
+    """Step, fleet (-1: any), count and agent (-1: by lot) of every loss, in the order of the steps, (C, 4)."""
     names = scenario.fleet_names
-    rows = [[loss.step, names.index(loss.fleet) if loss.fleet else -1, loss.count] for loss in scenario.losses]
-    return np.array(sorted(rows), np.int64).reshape(-1, 3)
+    rows = [
+        [loss.step, names.index(loss.fleet) if loss.fleet else -1, loss.size if agent < 0 else 1, agent]
+        for loss in scenario.losses
+        for agent in loss.agents or (-1,)
+    ]
+    return np.array(sorted(rows), np.int64).reshape(-1, 4)
 
 
 def build_targets(scenario: Scenario, tracks: Sequence[Any]) -> tuple[Any, Tracks]:

@@ -26,7 +26,7 @@ from shoal.run.sea import build_sea
 from shoal.run.state import State, arrays_of, read_only, state_of
 from shoal.scenario.assumptions import assumptions
 from shoal.scenario.at_sea import open_sea
-from shoal.scenario.crew import crew_of
+from shoal.scenario.crew import Crew, crew_of
 from shoal.scenario.load import Source, load
 from shoal.scenario.on_track import open_tracks
 from shoal.scenario.stations import stations
@@ -44,6 +44,7 @@ class Simulation:
     ----------
     scenario : what to run: a Scenario, or what shoal.load takes
     run : number of the replicate; with the seed it decides all chance
+    crew : who decides instead of the strategies that the scenario names, such as buoys outside; default: these
 
     Attributes
     ----------
@@ -63,11 +64,11 @@ class Simulation:
     StrategyError : the strategy cannot be compiled, or raises an error
     """
 
-    def __init__(self, scenario: Source, run: int = 0) -> None:
+    def __init__(self, scenario: Source, run: int = 0, *, crew: Crew | None = None) -> None:
         self.scenario = scenario = load(scenario)  # whoever made or copied it
         self.run = run
         self.number = 0
-        self.crew = crew_of(scenario)
+        self.crew = crew or crew_of(scenario)
         self.memory_fields = self.crew.memory
         opened = open_sea(scenario)
         tracks = open_tracks(scenario)

@@ -151,11 +151,29 @@ class AdaptiveDegree(Frozen):
 
 
 class Loss(Frozen):
-    """Agents that are lost at a step, chosen at random."""
+    """Agents that are lost at a step, chosen at random or named."""
 
     step: Count = Field(description="they are absent from this step on")
-    count: Count = Field(description="number of agents")
+    count: Count | None = Field(default=None, description="number of agents, chosen at random; or")
+    agents: tuple[Annotated[int, Field(strict=True, ge=0)], ...] = Field(
+        default=(), max_length=MOST_AGENTS, description="which agents, by their numbers from 0 in the order of fleets"
+    )
     fleet: str | None = Field(default=None, description="of which fleet; default: of any")
+
+    @property
+    def size(self) -> int:
+        """Number of agents."""
+        return len(self.agents) or self.count or 0
+
+    @model_validator(mode="after")
+    def _who(self) -> Self:
+        if (self.count is None) == (not self.agents):
+            raise ValueError("a loss has a count, or agents that it names; say one of them")
+        if self.agents and self.fleet is not None:
+            raise ValueError("a loss that names its agents has no fleet; leave out fleet, or say count")
+        if len(set(self.agents)) < len(self.agents):
+            raise ValueError("agents names one twice; leave out one of them")
+        return self
 
 
 class Join(Frozen):
@@ -427,12 +445,16 @@ class Scenario(Frozen):
     def _losses_have_agents(self) -> Self:
         counts: dict[str | None, int] = {None: self.agents, **dict(zip(self.fleet_names, self.counts, strict=True))}
         for number, loss in enumerate(self.losses):
-            lost = sum(each.count for each in self.losses if loss.fleet in (each.fleet, None))
+            if any(agent >= self.agents for agent in loss.agents):
+                raise ValueError(
+                    f"losses.{number}.agents has {max(loss.agents)}, but agents are 0 to {self.agents - 1}; correct it"
+                )
+            lost = sum(each.size for each in self.losses if loss.fleet in (each.fleet, None))
             if lost > counts[loss.fleet]:
                 whose = f"fleet {loss.fleet!r}" if loss.fleet else "the scenario"
                 raise ValueError(
-                    f"losses.{number}.count is {loss.count}, with which {lost} agents are lost in all, but "
-                    f"{whose} has {counts[loss.fleet]}; lower it"
+                    f"losses.{number} takes {loss.size}, with which {lost} agents are lost in all, but "
+                    f"{whose} has {counts[loss.fleet]}; take fewer"
                 )
         return self
 

@@ -66,6 +66,7 @@ class Strategy:
 RESERVED = ("name", "file", "source")  # what else a [strategy] table says
 
 TEAM = "team"  # its params hold other strategies' params; scenarios make it from fleets.strategy, see team.py
+PUPPET = "puppet"  # wants what it is told from outside; the stand-in sea makes it of buoys, see puppet.py
 CATALOGUE: dict[str, Strategy] = {}  # by name; the last one registered under a name
 _OWNERS: dict[type[Any], Strategy] = {}  # by class of parameters; all that were ever registered
 ARGUMENTS = {  # of the functions of a strategy
@@ -246,22 +247,22 @@ def _nearest_first(me, other, params):
 
 def begin(me: Any, memory: Any, params: Any, draw: Any) -> None:
     """Let the strategy that owns this type of params set up a memory."""
-    _owner(type(params)).begin(me, memory, params, draw)
+    owner_of(type(params)).begin(me, memory, params, draw)
 
 
 def leads(other: Any, params: Any) -> Any:
     """Ask the owner of params whether a neighbor may lead."""
-    return _owner(type(params)).leads(other, params)
+    return owner_of(type(params)).leads(other, params)
 
 
 def priority(me: Any, other: Any, params: Any) -> Any:
     """Ask the owner of params how low a neighbor ranks."""
-    return _owner(type(params)).priority(me, other, params)
+    return owner_of(type(params)).priority(me, other, params)
 
 
 def influence(me: Any, other: Any, params: Any) -> Any:
     """Ask the owner of params what a neighbor adds to each of its sums."""
-    owner = _owner(type(params))
+    owner = owner_of(type(params))
     if owner.influence is None:
         return (0.0,) * len(owner.sums._fields)
     return counted(owner.influence(me, other, params), params)
@@ -269,7 +270,7 @@ def influence(me: Any, other: Any, params: Any) -> Any:
 
 def counted(values: Any, params: Any) -> Any:
     """What an influence returned as a tuple with a number per sum; that of a team is filled up with zeros."""
-    owner = _owner(type(params))
+    owner = owner_of(type(params))
     if owner.name == TEAM:
         return (*values, *(0.0,) * (_width(params, type(params)) - len(values)))
     values = values if isinstance(values, tuple) else (values,)
@@ -306,7 +307,7 @@ def is_informed(params: Any) -> Any:
 
 def decide(me: Any, heard: Any, memory: Any, params: Any, draw: Any) -> Any:
     """Ask the owner of params for the velocity wanted; heard.sums has its sums in their order, and maybe more."""
-    owner = _owner(type(params))
+    owner = owner_of(type(params))
     if owner.name != TEAM:
         sums = owner.sums(*heard.sums[: len(owner.sums._fields)])
         heard = heard._replace(sum_x=heard.sums[0], sum_y=heard.sums[1], sums=sums)
@@ -315,25 +316,25 @@ def decide(me: Any, heard: Any, memory: Any, params: Any, draw: Any) -> Any:
 
 @overload(begin, inline="always")
 def _begin(me, memory, params, draw):
-    chosen = _owner(params.instance_class).begin
+    chosen = owner_of(params.instance_class).begin
     return lambda me, memory, params, draw: chosen(me, memory, params, draw)
 
 
 @overload(leads, inline="always")
 def _leads(other, params):
-    chosen = _owner(params.instance_class).leads
+    chosen = owner_of(params.instance_class).leads
     return lambda other, params: chosen(other, params)
 
 
 @overload(priority, inline="always")
 def _priority(me, other, params):
-    chosen = _owner(params.instance_class).priority
+    chosen = owner_of(params.instance_class).priority
     return lambda me, other, params: chosen(me, other, params)
 
 
 @overload(influence, inline="always")
 def _influence(me, other, params):
-    owner = _owner(params.instance_class)
+    owner = owner_of(params.instance_class)
     chosen, zeros = owner.influence, (0.0,) * len(owner.sums._fields)
     if chosen is None:
         return lambda me, other, params: zeros
@@ -342,7 +343,7 @@ def _influence(me, other, params):
 
 @overload(counted, inline="always")
 def _counted(values, params):
-    owner = _owner(params.instance_class)
+    owner = owner_of(params.instance_class)
     count = getattr(values, "count", 1)  # a tuple has one
     if owner.name != TEAM:
         if problem := _miscounted(owner, count):
@@ -387,7 +388,7 @@ def _is_informed(params):
 
 @overload(decide, inline="always")
 def _decide(me, heard, memory, params, draw):
-    owner = _owner(params.instance_class)
+    owner = owner_of(params.instance_class)
     chosen, named, taken = owner.decide, owner.sums, _taking(len(owner.sums._fields))
     if owner.name == TEAM:
         return lambda me, heard, memory, params, draw: chosen(me, heard, memory, params, draw)
@@ -463,7 +464,7 @@ def _miscounted(owner: Strategy, count: int) -> str:
 
 def _width(parts: Any, params_class: type[Any]) -> int:
     """How many sums the owner of params has, or the one with most of them in a team (values or their types)."""
-    owner = _owner(params_class)
+    owner = owner_of(params_class)
     if owner.name != TEAM:
         return len(owner.sums._fields)
     return max(_width(getattr(part, "types", part), kind) for part, kind in _inside(parts))
@@ -471,7 +472,7 @@ def _width(parts: Any, params_class: type[Any]) -> int:
 
 def _has(parts: Any, params_class: type[Any], trait: str) -> bool:
     """Whether the owner of params has a trait, or any params inside these (values or their types)."""
-    owner = _owner(params_class)
+    owner = owner_of(params_class)
     if owner.name != TEAM:
         return bool(getattr(owner, trait))
     return any(_has(getattr(part, "types", part), kind, trait) for part, kind in _inside(parts))
@@ -483,11 +484,12 @@ def _inside(parts: Any) -> list[tuple[Any, type[Any]]]:
     return [(part, kind) for part, kind in inside if kind in _OWNERS]
 
 
-def _owner(params_class: type[Any]) -> Strategy:
+def owner_of(params_class: type[Any]) -> Strategy:
+    """Return the strategy whose parameters are of a class."""
     return _OWNERS[params_class]
 
 
 def _register(known: Strategy) -> None:
-    if known.name != TEAM:
+    if known.name not in (TEAM, PUPPET):  # no scenario can ask for these
         CATALOGUE[known.name] = known
     _OWNERS[known.params] = known

@@ -1,0 +1,108 @@
+"""The buoys that one process runs, and what reached it: without clock, socket or body, so that anything can drive them.
+
+Every step in this order: `hear` what the mesh brought, `speak`, `hear` until enough is there, `act` once.
+"""
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from shoal.buoy.buoy import Buoy
+from shoal.buoy.inbox import Inbox
+from shoal.buoy.tether import Commands, Tick, reading_of
+from shoal.core.messages import Report
+from shoal.scenario.crew import crew_of
+from shoal.scenario.load import Source, load
+
+
+class Aboard:
+    """Some buoys of a scenario, one process, one inbox.
+
+    Parameters
+    ----------
+    scenario : what the whole swarm is told
+    ids : which agents they are
+    run : number of the replicate
+    max_age : steps that a report may be old to be heard, beside the delay of the scenario's radios
+
+    Attributes
+    ----------
+    ids : as given
+    inbox : what reached them
+
+    Raises
+    ------
+    ScenarioError, StrategyError : as Buoy
+    """
+
+    def __init__(self, scenario: Source, ids: Sequence[int], *, run: int = 0, max_age: int = 0) -> None:
+        scenario = load(scenario)
+        self.ids = tuple(ids)
+        self.buoys = {id: Buoy(scenario, id, run=run) for id in ids}
+        self._delay, self._interval = scenario.network.delay, scenario.report_steps
+        self._max_age = max_age
+        kept = self._delay + self._interval + max_age
+        self.inbox = Inbox(scenario.agents, crew_of(scenario).told, scenario.time_step, kept)
+        self._before = {id: buoy.state for id, buoy in self.buoys.items()}
+
+    def begin(self, tick: Tick) -> Commands:
+        """Set up memories where the buoys lie; nothing is wanted yet."""
+        for row in tick.readings:
+            self.buoys[int(row["id"])].begin(reading_of(row))
+        return self._commands(tick, [(0.0, 0.0)] * len(tick.readings))
+
+    def speak(self, tick: Tick) -> list[bytes]:
+        """What they publish at a step; nothing between two reports of a slower radio."""
+        if tick.step % self._interval:
+            return []
+        said = []
+        for row in tick.readings:
+            said.append(self.buoys[int(row["id"])].report(reading_of(row), tick.step).to_bytes())
+        return said
+
+    def hear(self, messages: Iterable[bytes], step: int) -> None:
+        """Take what the mesh brought."""
+        for data in messages:
+            self.inbox.put(data, step)
+
+    def missing(self, tick: Tick) -> set[int]:
+        """Whose reports of a step have not arrived."""
+        return set() if tick.step % self._interval else self.inbox.missing(tick.step, np.flatnonzero(tick.alive).tolist())
+
+    def act(self, tick: Tick) -> Commands:
+        """What they want at a step, from what they measure and hear."""
+        self._before = {int(id): self.buoys[int(id)].state for id in tick.readings["id"]}
+        arrived = tick.step - self._delay
+        then = arrived - arrived % self._interval
+        said = self.inbox.newest(then, self._max_age)
+        if then == tick.step:
+            said = {id: report for id, report in said.items() if tick.alive[id]}
+        everybody = list(said.values())
+        wants = []
+        for number, row in enumerate(tick.readings):
+            inbox = everybody if tick.hears is None else _heard(said, tick.hears[number])
+            buoy = self.buoys[int(row["id"])]
+            buoy.decide(reading_of(row), inbox, tick.step)
+            wants.append(buoy.wanted)
+        self.inbox.forget(tick.step)
+        return self._commands(tick, wants)
+
+    def undo(self) -> None:
+        """Forget the last `act`: the step begins again."""
+        for id, state in self._before.items():
+            self.buoys[id].restore(state)
+
+    def _commands(self, tick: Tick, wants: list[tuple[float, float]]) -> Commands:
+        ids = tick.readings["id"].astype(np.int32)
+        memory = [self.buoys[int(id)].state[0] for id in ids]
+        return Commands(
+            tick.step,
+            tick.turn,
+            ids,
+            np.array(wants, float).reshape(len(ids), 2),
+            np.array(memory, float).reshape(len(ids), -1 if len(ids) else 0),
+        )
+
+
+def _heard(said: dict[int, Report], hears: np.ndarray) -> list[Report]:
+    return [said[id] for id in np.flatnonzero(hears).tolist() if id in said]

@@ -1,0 +1,62 @@
+"""Lockstep: a step is over when every buoy that is there has heard all others and said what it wants."""
+
+from collections.abc import Callable
+from typing import Protocol
+
+from shoal.buoy.tether import BEGIN, Commands, Tick
+from shoal.core.errors import FleetError
+from shoal.fleet.log import Log
+from shoal.fleet.ocean import Ocean
+
+
+class Crowd(Protocol):
+    """All buoys of a fleet, wherever they run."""
+
+    def ask(self, tick: Tick) -> tuple[list[Commands], list[int]]:
+        """Let all buoys begin a step: what they want, and who was lost meanwhile."""
+
+
+def run_in_lockstep(ocean: Ocean, crowd: Crowd, log: Log, progress: Callable[[int, int], None]) -> None:
+    """Run a fleet to the end of its scenario, or until it is interrupted.
+
+    A step in which a buoy is lost begins again without it: all others go back to how the step found them, so that the
+    fleet does what the simulator does where this buoy is lost at this step.
+
+    Parameters
+    ----------
+    ocean : the sea; crowd : the buoys in it; log : what keeps what they do
+    progress : called as progress(steps done, steps in all)
+
+    Raises
+    ------
+    FleetError : a buoy was lost before the first step was done, or all are
+    """
+    steps = ocean.simulation.scenario.steps
+    first = ocean.tick(BEGIN)._replace(readings=ocean.readings(), hears=None)
+    begun, lost = crowd.ask(first)
+    _check(lost, 0)
+    for commands in begun:
+        log.remember(commands.ids, commands.memory)
+    while ocean.number < steps:
+        turn = 0
+        while True:
+            tick = ocean.tick(turn)
+            answers, lost = crowd.ask(tick)
+            if not lost:
+                break
+            _check(lost, ocean.number)
+            log.lose(ocean.number, lost)
+            ocean.lose(lost)
+            turn += 1
+        for commands in answers:
+            ocean.obey(commands.ids, commands.wants)
+        log.keep(ocean.advance())
+        for commands in answers:
+            log.remember(commands.ids, commands.memory)
+        progress(ocean.number, steps)
+
+
+def _check(lost: list[int], step: int) -> None:
+    if lost and step == 0:
+        who = ", ".join(map(str, sorted(lost)))
+        raise FleetError(f"buoy {who}", "was lost before the first step was done", "start the fleet again")

@@ -1,0 +1,97 @@
+"""What a fleet did, as a record: every step, who was lost when, and what went wrong on the way."""
+
+from dataclasses import replace
+from datetime import UTC, datetime
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.fleet.ocean import Ocean
+from shoal.record.files import save_record, open_record
+from shoal.record.record import Record
+from shoal.record.trajectory import Trajectory
+from shoal.run.facts import facts_of
+from shoal.run.simulate import provenance
+from shoal.scenario.crew import crew_of
+from shoal.scenario.schema import Loss, Scenario
+
+
+class Log:
+    """Everything that a fleet does, step by step.
+
+    Parameters
+    ----------
+    ocean : that it is in
+
+    Attributes
+    ----------
+    lost : step and number of every buoy that was lost and that the scenario does not lose
+    notes : what else is to be told
+    """
+
+    def __init__(self, ocean: Ocean) -> None:
+        self.lost: list[tuple[int, int]] = []
+        self.notes: list[str] = []
+        self._ocean = ocean
+        self._fields = crew_of(ocean.simulation.scenario).memory
+        self._frames: list[Trajectory] = []
+        self._memory = np.zeros((ocean.simulation.scenario.agents, len(self._fields)))
+        self._begun, self._started = perf_counter(), datetime.now(UTC)
+
+    @property
+    def steps(self) -> int:
+        """Steps that are kept."""
+        return len(self._frames)
+
+    def remember(self, ids: npt.NDArray[np.int32], memory: npt.NDArray[np.float64]) -> None:
+        """Note what buoys remember now, (n, M)."""
+        self._memory[ids] = memory
+
+    def keep(self, frame: Trajectory) -> None:
+        """Keep the frame of a step, which began with what buoys remembered."""
+        memory = {name: self._memory[None, :, m].copy() for m, name in enumerate(self._fields)}
+        self._frames.append(replace(frame, memory=memory))
+
+    def lose(self, step: int, ids: list[int]) -> None:
+        """Note who was lost at a step."""
+        self.lost += [(step, id) for id in ids]
+
+    def record(self, notes: list[str], out: Path | None = None) -> Record:
+        """Return the record of the steps done, and write it to a new folder.
+
+        Its scenario is that of the run with the buoys lost, and as many steps as were done.
+
+        Raises
+        ------
+        RecordError : the folder exists or cannot be written
+        """
+        planned = self._ocean.simulation
+        scenario = with_losses(planned.scenario, self.lost, self.steps)
+        tally = planned.tally if scenario.steps == planned.scenario.steps else self._counted_again(scenario)
+        about = provenance(scenario, self._started, perf_counter() - self._begun, [*planned.notes, *self.notes, *notes])
+        frames = {planned.run: Trajectory.join(self._frames)}
+        record = Record(scenario, facts_of(scenario), planned.roster, (tally,), about, frames)
+        if out is None:
+            return record
+        save_record(record, out)
+        return open_record(out)
+
+    def _counted_again(self, scenario: Scenario) -> Any:
+        """The sums of a run that ended early, in the batches of its length."""
+        again = Ocean(scenario, self._ocean.simulation.run)
+        everybody = np.arange(scenario.agents, dtype=np.int32)
+        for frame in self._frames[1:]:
+            again.obey(everybody, np.stack([frame.command_x[0], frame.command_y[0]], axis=1))
+            again.advance()
+        again.advance()
+        return again.simulation.tally
+
+
+def with_losses(scenario: Scenario, lost: list[tuple[int, int]], steps: int) -> Scenario:
+    """The scenario in which these agents are lost at these steps too, and which has so many steps."""
+    losses = {step: [id for then, id in lost if then == step] for step, _ in lost}
+    also = tuple(Loss(step=step, agents=tuple(sorted(ids))) for step, ids in sorted(losses.items()))
+    return Scenario.model_validate({**dict(scenario), "losses": (*scenario.losses, *also), "steps": steps})
