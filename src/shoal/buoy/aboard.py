@@ -65,6 +65,11 @@ class Aboard:
         for data in messages:
             self.inbox.put(data, step)
 
+    def heard(self, tick: Tick) -> dict[int, int]:
+        """Of whom a report can be heard at a step, and when it was said."""
+        said = self.inbox.newest(self.spoken(tick.step), self._max_age)
+        return {id: self.inbox.step_of(report) for id, report in said.items()}
+
     def missing(self, tick: Tick) -> set[int]:
         """Whose reports of a step have not arrived."""
         return set() if tick.step % self._interval else self.inbox.missing(tick.step, np.flatnonzero(tick.alive).tolist())
@@ -72,8 +77,7 @@ class Aboard:
     def act(self, tick: Tick) -> Commands:
         """What they want at a step, from what they measure and hear."""
         self._before = {int(id): self.buoys[int(id)].state for id in tick.readings["id"]}
-        arrived = tick.step - self._delay
-        then = arrived - arrived % self._interval
+        then = self.spoken(tick.step)
         said = self.inbox.newest(then, self._max_age)
         if then == tick.step:
             said = {id: report for id, report in said.items() if tick.alive[id]}
@@ -86,6 +90,11 @@ class Aboard:
             wants.append(buoy.wanted)
         self.inbox.forget(tick.step)
         return self._commands(tick, wants)
+
+    def spoken(self, step: int) -> int:
+        """The step at which was said what is heard at a step, if nothing is late: the simulator's radio has the same."""
+        arrived = step - self._delay
+        return arrived - arrived % self._interval
 
     def undo(self) -> None:
         """Forget the last `act`: the step begins again."""

@@ -48,10 +48,10 @@ class Inbox:
             self.counts["damaged"] += 1
             return
         steps = report.time / self._time_step
-        if report.id >= self._agents or not abs(steps) < 2**53 or abs(steps - round(steps)) > 1e-3:
+        if report.id >= self._agents or not 0.0 <= steps < 2**53 or abs(steps - round(steps)) > 1e-3:
             self.counts["strange"] += 1
             return
-        step = round(steps)
+        step = self.step_of(report)
         if step > now + AHEAD:
             self.counts["early"] += 1
         elif step < max(0, now - self._kept):
@@ -63,6 +63,10 @@ class Inbox:
             self.counts["new"] += 1
             self.counts["reordered"] += step < self._last.get(report.id, 0)
             self._last[report.id] = max(step, self._last.get(report.id, 0))
+
+    def step_of(self, report: Report) -> int:
+        """The step at which a report was said."""
+        return round(report.time / self._time_step)
 
     def forget(self, now: int) -> None:
         """Drop what nobody will ask for from a step on."""

@@ -21,6 +21,8 @@ app = App(
     suppress_keyboard_interrupt=False,  # run_command says what an interrupt left behind
 )
 app.command("shoal.cli.run:run", name="run", help="Run a scenario and print its metrics.")
+app.command("shoal.cli.fleet:fleet", name="fleet", help="Run the buoys themselves, in a stand-in for the sea.")
+app.command("shoal.cli.buoy:buoy", name="buoy", help="Run one buoy of a fleet: what runs on a vehicle.")
 app.command("shoal.cli.show:show", name="show", help="Print the table of a saved record, and draw its figure.")
 app.command("shoal.cli.film:film", name="film", help="Make a film or a still of a record or a scenario.")
 app.command("shoal.cli.watch:watch", name="watch", help="Watch a run in the browser, and change it as it goes.")

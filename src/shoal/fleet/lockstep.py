@@ -1,10 +1,10 @@
 """Lockstep: a step is over when every buoy that is there has heard all others and said what it wants."""
 
+import time
 from collections.abc import Callable
 from typing import Protocol
 
 from shoal.buoy.tether import BEGIN, Commands, Tick
-from shoal.core.errors import FleetError
 from shoal.fleet.log import Log
 from shoal.fleet.ocean import Ocean
 
@@ -16,7 +16,9 @@ class Crowd(Protocol):
         """Let all buoys begin a step: what they want, and who was lost meanwhile."""
 
 
-def run_in_lockstep(ocean: Ocean, crowd: Crowd, log: Log, progress: Callable[[int, int], None]) -> None:
+def run_in_lockstep(
+    ocean: Ocean, crowd: Crowd, log: Log, progress: Callable[[int, int], None], pace: float | None = None
+) -> None:
     """Run a fleet to the end of its scenario, or until it is interrupted.
 
     A step in which a buoy is lost begins again without it: all others go back to how the step found them, so that the
@@ -26,17 +28,19 @@ def run_in_lockstep(ocean: Ocean, crowd: Crowd, log: Log, progress: Callable[[in
     ----------
     ocean : the sea; crowd : the buoys in it; log : what keeps what they do
     progress : called as progress(steps done, steps in all)
+    pace : a step takes at least so long [s]
 
     Raises
     ------
-    FleetError : a buoy was lost before the first step was done, or all are
+    FleetError : a buoy was lost before the first step was done
     """
     steps = ocean.simulation.scenario.steps
     first = ocean.tick(BEGIN)._replace(readings=ocean.readings(), hears=None)
     begun, lost = crowd.ask(first)
-    _check(lost, 0)
+    ocean.lose(lost)
     for commands in begun:
         log.remember(commands.ids, commands.memory)
+    begin = time.monotonic()
     while ocean.number < steps:
         turn = 0
         while True:
@@ -44,9 +48,7 @@ def run_in_lockstep(ocean: Ocean, crowd: Crowd, log: Log, progress: Callable[[in
             answers, lost = crowd.ask(tick)
             if not lost:
                 break
-            _check(lost, ocean.number)
-            log.lose(ocean.number, lost)
-            ocean.lose(lost)
+            log.lose(ocean.number, ocean.lose(lost))
             turn += 1
         for commands in answers:
             ocean.obey(commands.ids, commands.wants)
@@ -54,9 +56,6 @@ def run_in_lockstep(ocean: Ocean, crowd: Crowd, log: Log, progress: Callable[[in
         for commands in answers:
             log.remember(commands.ids, commands.memory)
         progress(ocean.number, steps)
+        if pace:
+            time.sleep(max(0.0, begin + ocean.number * pace - time.monotonic()))
 
-
-def _check(lost: list[int], step: int) -> None:
-    if lost and step == 0:
-        who = ", ".join(map(str, sorted(lost)))
-        raise FleetError(f"buoy {who}", "was lost before the first step was done", "start the fleet again")

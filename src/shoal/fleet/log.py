@@ -69,7 +69,7 @@ class Log:
         RecordError : the folder exists or cannot be written
         """
         planned = self._ocean.simulation
-        scenario = with_losses(planned.scenario, self.lost, self.steps)
+        scenario = as_it_was(planned.scenario, self._ocean.leaves, self.lost, self.steps)
         tally = planned.tally if scenario.steps == planned.scenario.steps else self._counted_again(scenario)
         about = provenance(scenario, self._started, perf_counter() - self._begun, [*planned.notes, *self.notes, *notes])
         frames = {planned.run: Trajectory.join(self._frames)}
@@ -90,8 +90,18 @@ class Log:
         return again.simulation.tally
 
 
-def with_losses(scenario: Scenario, lost: list[tuple[int, int]], steps: int) -> Scenario:
-    """The scenario in which these agents are lost at these steps too, and which has so many steps."""
-    losses = {step: [id for then, id in lost if then == step] for step, _ in lost}
-    also = tuple(Loss(step=step, agents=tuple(sorted(ids))) for step, ids in sorted(losses.items()))
-    return Scenario.model_validate({**dict(scenario), "losses": (*scenario.losses, *also), "steps": steps})
+def as_it_was(scenario: Scenario, leaves: npt.NDArray[np.int64], lost: list[tuple[int, int]], steps: int) -> Scenario:
+    """The scenario that does in the simulator what the fleet did: these agents are lost, so many steps are done.
+
+    Where any are lost, those that the scenario loses by lot are named, too: fewer would take part in the lots.
+    """
+    changes: dict[str, Any] = {"steps": steps}
+    if lost:
+        gone = {id for _, id in lost}
+        meant = {loss.step for loss in scenario.losses}
+        named = [*lost, *((step, id) for id, step in enumerate(leaves.tolist()) if step in meant and id not in gone)]
+        changes["losses"] = tuple(
+            Loss(step=step, agents=tuple(sorted(id for then, id in named if then == step)))
+            for step in sorted({step for step, _ in named})
+        )
+    return Scenario.model_validate({**dict(scenario), **changes})

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.buoy.tether import READINGS, Tick
-from shoal.core.errors import ScenarioError, StrategyError
+from shoal.core.errors import FleetError, ScenarioError, StrategyError
 from shoal.core.links import MOST_LINKED, unpacked
 from shoal.record.trajectory import Trajectory
 from shoal.run.simulation import Simulation
@@ -28,6 +28,7 @@ class Ocean:
     Attributes
     ----------
     simulation : the engine's run; roster, tally, notes are there
+    leaves : the step at which the scenario loses each agent, (N,)
     ideal : whether radios reach everybody: then buoys choose whom they hear, else the sea says whom they can
 
     Raises
@@ -57,6 +58,7 @@ class Ocean:
         puppeteer = Crew(strategies=puppets, params=Puppet(), memory=tuple(PUPPET.memory), told=())
         self.simulation = Simulation(scenario, run, crew=puppeteer)
         self._agents = scenario.agents
+        self.leaves = self.simulation.swarm.leaves[: scenario.agents].copy()
 
     @property
     def number(self) -> int:
@@ -97,11 +99,20 @@ class Ocean:
         assert frame is not None
         return frame
 
-    def lose(self, ids: Iterable[int]) -> None:
-        """Let agents be absent from the coming step on."""
+    def lose(self, ids: Iterable[int]) -> list[int]:
+        """Let agents be absent from the coming step on; return those that were there or would have come.
+
+        Raises
+        ------
+        FleetError : no step is done yet
+        """
+        lost = sorted(id for id in set(ids) if self.simulation.swarm.leaves[id] > self.number)
+        if lost and self.number == 0:
+            who = ", ".join(map(str, lost))
+            raise FleetError(f"buoy {who}", "was lost before the first step was done", "start the fleet again")
         with self.simulation.edit() as now:
-            for id in ids:
-                now.swarm.leaves[id] = min(now.swarm.leaves[id], self.number)
+            now.swarm.leaves[lost] = self.number
+        return lost
 
 
 def check_buoys_can(scenario: Scenario, crew: Crew) -> None:

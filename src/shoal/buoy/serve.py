@@ -1,0 +1,137 @@
+"""What runs on one computer: some buoys, a mesh, and a tether to the sea that they are in."""
+
+import os
+import sys
+import time
+from collections.abc import Sequence
+from multiprocessing import AuthenticationError
+from multiprocessing.connection import Client, Connection
+from typing import Any
+
+from shoal.buoy.aboard import Aboard
+from shoal.buoy.lockstep import Lockstep
+from shoal.buoy.mesh import Mesh
+from shoal.buoy.paced import Paced
+from shoal.buoy.tether import Note, from_bytes
+from shoal.buoy.zenoh_mesh import ZenohMesh
+from shoal.core.errors import FleetError, MessageError
+from shoal.core.messages import Reading
+from shoal.scenario.load import Source, load
+
+KEY = "SHOAL_FLEET_KEY"  # of the environment: what proves to the sea that a buoy is one of its own
+_MEETING = 60.0  # seconds in which all nodes of a mesh find each other
+
+
+def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: bytes) -> None:
+    """Run some buoys of a fleet until the sea that they are tied to says that it is over, or is gone.
+
+    Parameters
+    ----------
+    scenario : of the whole swarm, the same as the sea's
+    ids : which agents run here
+    address : host and port of the sea
+    key : what proves that they belong to it
+
+    Raises
+    ------
+    ScenarioError, StrategyError : as Buoy
+    FleetError : there is no sea, it takes no such buoys, or the others are not found
+    MissingExtraError : zenoh is not installed
+    """
+    scenario = load(scenario)
+    where = f"{address[0]}:{address[1]}"
+    try:
+        connection = Client(address, authkey=key)
+    except AuthenticationError:
+        raise FleetError(where, "does not take this key", f"give the key of this fleet in ${KEY}") from None
+    except (OSError, EOFError) as error:
+        problem = f"cannot be reached: {getattr(error, 'strerror', None) or 'it does not answer as a sea does'}"
+        raise FleetError(where, problem, "start the fleet first, and name its address") from None
+    with connection:
+        try:
+            _say(connection, "hello", ids=list(ids), scenario=scenario.hash, seed=scenario.seed, process=os.getpid())
+            welcome = _note(connection, where, "welcome")
+            aboard = Aboard(scenario, ids, run=welcome["run"], max_age=welcome["max_age"])
+            _warm(aboard)
+            mesh = ZenohMesh(
+                welcome["fleet"], str(min(ids)), connect=welcome["connect"], listen=welcome["listen"]
+            )
+            try:
+                _meet(mesh, welcome["nodes"])
+                _say(connection, "ready")
+                _work(aboard, mesh, connection, welcome, scenario.agents)
+            finally:
+                mesh.close()
+        except (EOFError, ConnectionError, BrokenPipeError):
+            return  # the sea is gone, and the buoys in it
+        except MessageError as error:
+            raise FleetError(where, "is no sea of a fleet: " + error.args[1], "name the address of one") from None
+
+
+def _work(
+    aboard: Aboard, mesh: Mesh, connection: "Connection[bytes, bytes]", welcome: dict[str, Any], agents: int
+) -> None:
+    driver: Lockstep | Paced
+    if welcome["period"] is None:
+        driver = Lockstep(aboard, mesh, connection)
+    else:
+        driver = Paced(aboard, mesh, connection, welcome["period"], agents)
+    begun, spent = time.monotonic(), time.process_time()
+    driver.run()
+    facts = driver.facts() if isinstance(driver, Paced) else {}
+    _say(
+        connection,
+        "bye",
+        ids=list(aboard.ids),
+        spent=time.process_time() - spent,
+        seconds=time.monotonic() - begun,
+        memory=_memory(),
+        counts=dict(aboard.inbox.counts),
+        **facts,
+    )
+
+
+def _warm(aboard: Aboard) -> None:
+    """Decide once, so that what must be compiled is, and forget it."""
+    buoy = aboard.buoys[aboard.ids[0]]
+    state = buoy.state
+    reading = Reading(0.0, 0.0, 0.0, 0.0, False)
+    buoy.decide(reading, [buoy.report(reading, 0)._replace(id=buoy.id + 1)], 0)
+    buoy.restore(state)
+
+
+def _meet(mesh: Mesh, nodes: int) -> None:
+    """Wait until all nodes of the mesh are there.
+
+    Raises
+    ------
+    FleetError : they are not in a minute
+    """
+    begun = time.monotonic()
+    while (there := mesh.alive()) < nodes:
+        if time.monotonic() - begun > _MEETING:
+            raise FleetError("mesh", f"has {there} of {nodes} nodes after {_MEETING:g} s", "see why the others end")
+        time.sleep(0.02)
+
+
+def _say(connection: "Connection[bytes, bytes]", word: str, **facts: Any) -> None:
+    connection.send_bytes(Note(word, facts).to_bytes())
+
+
+def _note(connection: "Connection[bytes, bytes]", where: str, word: str) -> dict[str, Any]:
+    said = from_bytes(connection.recv_bytes())
+    if isinstance(said, Note) and said.word == "refused":
+        raise FleetError(where, str(said.facts.get("problem")), str(said.facts.get("fix")))
+    if not isinstance(said, Note) or said.word != word:
+        raise MessageError("tether", f"said something else than {word}", "connect buoys and seas only")
+    return said.facts
+
+
+def _memory() -> int:
+    """The most memory that this process had [B]."""
+    if sys.platform == "win32":
+        return 0
+    import resource
+
+    most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return most if sys.platform == "darwin" else 1024 * most

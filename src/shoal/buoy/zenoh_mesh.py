@@ -1,0 +1,91 @@
+"""A mesh of zenoh peers: no router, no broker. The only file that imports zenoh (extra: fleet)."""
+
+import json
+import queue
+from collections.abc import Sequence
+from typing import Any
+
+from shoal.buoy.mesh import drained
+from shoal.core.errors import FleetError, MissingExtraError
+
+LEASE = 2_000  # after so many milliseconds of silence a peer counts as gone
+
+
+class ZenohMesh:
+    """A node of a mesh over TCP: it listens, connects to the nodes that it knows, and learns of the others from them.
+
+    Parameters
+    ----------
+    fleet : what the mesh is called; those of another name are not heard
+    node : what this node is called
+    connect : addresses of nodes to connect to, such as tcp/127.0.0.1:7447; all others are learned from them
+    listen : address to listen at; the default can be reached from this machine only, on a free port
+    config : more of zenoh's own configuration, by its paths, such as {"transport/link/tls/root_ca_certificate": FILE}
+
+    Raises
+    ------
+    MissingExtraError : zenoh is not installed
+    FleetError : an address cannot be used
+    """
+
+    def __init__(
+        self,
+        fleet: str,
+        node: str,
+        *,
+        connect: Sequence[str] = (),
+        listen: str = "tcp/127.0.0.1:0",
+        config: dict[str, Any] | None = None,
+    ) -> None:
+        try:
+            import zenoh
+        except ModuleNotFoundError:
+            raise MissingExtraError.of("zenoh", "fleet", "a mesh between processes") from None
+        settings = zenoh.Config()
+        wanted: dict[str, Any] = {
+            "mode": "peer",
+            "listen/endpoints": [listen],
+            "connect/endpoints": list(connect),
+            "scouting/multicast/enabled": False,
+            "scouting/gossip/enabled": True,
+            "transport/link/tx/lease": LEASE,
+            **(config or {}),
+        }
+        self._arrived: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+        self._fleet = fleet
+        try:
+            for path, value in wanted.items():
+                settings.insert_json5(path, json.dumps(value))
+            self._session = zenoh.open(settings)
+            self._heard = self._session.declare_subscriber(f"{fleet}/reports", self._take_in)
+            self._publisher = self._session.declare_publisher(
+                f"{fleet}/reports",
+                congestion_control=zenoh.CongestionControl.BLOCK,
+                priority=zenoh.Priority.REAL_TIME,
+                express=True,
+            )
+            self._token = self._session.liveliness().declare_token(f"{fleet}/alive/{node}")
+        except zenoh.ZError as error:
+            where = ", ".join([listen, *connect])
+            problem = f"cannot be a mesh: {' '.join(str(error).split())[:200]}"
+            raise FleetError(where, problem, "give addresses such as tcp/127.0.0.1:7447 that are free") from None
+
+    def _take_in(self, sample: Any) -> None:
+        self._arrived.put(bytes(sample.payload))
+
+    def publish(self, data: bytes) -> None:
+        """Send a message to all who are there."""
+        self._publisher.put(data)
+
+    def take(self, timeout: float) -> list[bytes]:
+        """Return what arrived since the last call; if nothing did, wait for it as long as `timeout` [s]."""
+        return drained(self._arrived, timeout)
+
+    def alive(self) -> int:
+        """Return how many nodes are there, this one included."""
+        replies = self._session.liveliness().get(f"{self._fleet}/alive/*", timeout=1.0)
+        return len({str(reply.ok.key_expr) for reply in replies if reply.ok is not None})
+
+    def close(self) -> None:
+        """Leave."""
+        self._session.close()

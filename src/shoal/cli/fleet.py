@@ -1,0 +1,125 @@
+"""shoal fleet: the buoys themselves, in a stand-in for the sea."""
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from shoal.cli.numbers import MaybeInteger, MaybeNumber, MaybeSteps
+from shoal.cli.options import edited_table
+from shoal.cli.output import write
+from shoal.cli.places import check_places
+from shoal.cli.progress import note, progress_bar
+from shoal.cli.startup import load_compiler, tell_of_compiling
+
+
+def fleet(
+    scenario: str,
+    /,
+    *,
+    neighbors: Annotated[str | None, Parameter(name=["--neighbors", "-k"])] = None,
+    fast: MaybeInteger = None,
+    agents: MaybeInteger = None,
+    target_speed: str | None = None,
+    steps: Annotated[MaybeSteps, Parameter(name=["--steps", "--for"])] = None,
+    seed: MaybeInteger = None,
+    strategy: str | None = None,
+    target_track: str | None = None,
+    track_id: str | None = None,
+    assignments: Annotated[list[str] | None, Parameter(name="--set", negative=(), consume_multiple=False)] = None,
+    processes: MaybeInteger = None,
+    lockstep: Annotated[bool, Parameter(negative=())] = False,
+    speed: MaybeNumber = None,
+    kill: Annotated[list[str] | None, Parameter(negative=(), consume_multiple=False)] = None,
+    mesh: str = "zenoh",
+    max_age: MaybeInteger = None,
+    plain: Annotated[bool, Parameter(negative=())] = False,
+    out: Path | None = None,
+    figure: Path | None = None,
+    json_: Annotated[bool, Parameter(name="--json", negative=())] = False,
+) -> None:
+    """Run the buoys of a scenario as processes that decide by themselves and talk over a mesh. Ctrl-C ends it.
+
+    A stand-in for the sea moves them, by the clock; what was done until the end, or until Ctrl-C, is the result.
+
+    Parameters
+    ----------
+    scenario
+        A preset's name (see `shoal presets`) or a TOML file.
+    neighbors
+        k: every buoy hears its k nearest others; or all.
+    fast
+        Number of buoys of the fastest fleet; the slowest fleet gives or takes the difference.
+    agents
+        Number of buoys in all, in the scenario's shares of fleets.
+    target_speed
+        Speed of the waypoint targets: m/s, or with a unit, such as "6 kn".
+    steps
+        Time-steps of the run, or its duration, such as "1 min"; default the scenario's.
+    seed
+        Seed of all chance.
+    strategy
+        A strategy's name (see `shoal strategies`) or a Python file that defines one.
+    target_track
+        Recorded track to follow instead (CSV, NMEA, GPX, KML, GeoJSON, NetCDF): arena and lengths are fitted around it.
+    track_id
+        Which track of the file, as COLUMN=VALUE, such as mmsi=235069877; all joins all.
+    assignments
+        Any field by its path, such as strategy.delta=0.02; may be repeated.
+    processes
+        Processes that the buoys run in; default one per core.
+    lockstep
+        Let a step take as long as all buoys need, instead of its time: the simulator's run, to the bit.
+    speed
+        Times real time; with --lockstep at most, default as fast as it goes.
+    kill
+        Kill the process of a buoy when a step begins, BUOY@STEP, with all buoys in it; may be repeated.
+    mesh
+        zenoh, between processes; or memory, all in this process and in lockstep.
+    max_age
+        Steps that a report may be old to be heard; default 0 with --lockstep, else 1.
+    plain
+        Let buoys decide without a compiler: they start at once, with a third of the memory.
+    out
+        Save the record, of every step, to this new folder.
+    figure
+        Draw the result to this file (.png, .svg or .pdf).
+    json_
+        Print one JSON object and nothing else.
+    """
+    load_compiler()
+    from shoal.fleet.run_fleet import Terms, run_fleet
+    from shoal.scenario.load import scenario_from
+
+    changes: dict[str, Any] = {
+        "agents": agents,
+        "fast": fast,
+        "strategy": strategy,
+        "neighbors": neighbors,
+        "target-speed": target_speed,
+        "steps": steps,
+        "seed": seed,
+    }
+    check_places(out, figure)
+    chosen = scenario_from(edited_table(scenario, changes, assignments or [], target_track, track_id), where=scenario)
+    terms = Terms(processes, lockstep, speed, tuple(kill or ()), mesh, max_age, plain)
+    tell_of_compiling(chosen)
+    note(f"{chosen.agents} buoys start (Ctrl-C ends the run, and keeps what was done)")
+    with progress_bar(f"{chosen.name}, {chosen.agents} buoys, {chosen.steps:,} steps") as progress:
+        record = run_fleet(chosen, terms, out=out, progress=progress)
+    for each in record.provenance["notes"]:
+        note(each)
+    if out:
+        note(f"record: {out} (shoal show {out})")
+    if json_:
+        write(json.dumps(record.summary()) + "\n")
+    else:
+        from shoal.cli.table import print_record
+
+        print_record(record)
+    if figure:
+        from shoal.study.plot import save, summary
+
+        save(summary(record), figure)
+        note(f"figure: {figure}")

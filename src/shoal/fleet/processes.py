@@ -1,0 +1,293 @@
+"""The processes that buoys run in: started, tied to the sea, asked, watched and ended."""
+
+import os
+import queue
+import secrets
+import socket
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+from multiprocessing import AuthenticationError
+from multiprocessing.connection import Connection, Listener, wait
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from types import TracebackType
+from typing import Any, Self
+
+from shoal.buoy.mesh import Mesh
+from shoal.buoy.serve import KEY
+from shoal.buoy.tether import Commands, Note, Tick, from_bytes
+from shoal.buoy.zenoh_mesh import ZenohMesh
+from shoal.core.errors import FleetError, MessageError
+from shoal.scenario.load import to_toml
+from shoal.scenario.schema import Scenario
+
+HOST = "127.0.0.1"
+STARTING = 300.0  # seconds that a process has to start, compiling included
+ASK_AGAIN = 2.0  # seconds without an answer after which a step is asked for again
+PATIENCE = 30.0  # and after which a process that does not answer is ended
+
+
+class Tied:
+    """One process of buoys: its connection and, where we started it, its handle."""
+
+    def __init__(self, ids: tuple[int, ...], connection: "Connection[bytes, bytes]", number: int) -> None:
+        self.ids = ids
+        self.connection = connection
+        self.number = number
+        self.facts: dict[str, Any] | None = None
+
+    def say(self, message: bytes) -> bool:
+        """Send it something; False if it is gone."""
+        try:
+            self.connection.send_bytes(message)
+        except OSError:
+            return False
+        return True
+
+
+class Processes:
+    """All buoys of a fleet in processes of this machine; use it as a context, at whose end all processes have ended.
+
+    Parameters
+    ----------
+    scenario : of the fleet; run : number of the replicate
+    shares : which buoys are in one process each
+    max_age : steps that a report may be old to be heard
+    period : of a step on the clock [s]; None: lockstep
+    plain : whether buoys decide without a compiler
+
+    Attributes
+    ----------
+    tied : the processes that are there
+    mesh : what buoys tell each other arrives here, too
+
+    Raises
+    ------
+    MissingExtraError : zenoh is not installed
+    FleetError : a process cannot start
+    """
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        shares: Sequence[Sequence[int]],
+        *,
+        run: int = 0,
+        max_age: int = 0,
+        period: float | None = None,
+        plain: bool = False,
+    ) -> None:
+        self.tied: list[Tied] = []
+        self.gone: list[Tied] = []
+        self._scenario = scenario
+        self._shares = [tuple(each) for each in shares]
+        self._started: dict[int, subprocess.Popen[bytes]] = {}
+        self._arrived: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        self._folder = TemporaryDirectory(prefix="shoal-fleet-")
+        self._key = secrets.token_hex(32)
+        self._plain = plain
+        self._listener = Listener((HOST, 0), authkey=bytes.fromhex(self._key), backlog=max(16, len(self._shares)))
+        name = f"shoal/{secrets.token_hex(4)}"
+        seed = f"tcp/{HOST}:{_free_port()}"
+        self.mesh: Mesh = ZenohMesh(name, "sea", listen=seed)
+        self._welcome = {
+            "fleet": name,
+            "connect": [seed],
+            "listen": f"tcp/{HOST}:0",
+            "nodes": len(self._shares) + 1,
+            "run": run,
+            "max_age": max_age,
+            "period": period,
+        }
+
+    def __enter__(self) -> Self:
+        try:
+            file = Path(self._folder.name) / "fleet.toml"
+            file.write_text(to_toml(self._scenario), encoding="utf-8")
+            threading.Thread(target=self._accept, daemon=True).start()
+            for ids in self._shares:
+                process = self._start(file, ids)
+                self._started[process.pid] = process
+            self._gather()
+        except BaseException:
+            self.__exit__(None, None, None)
+            raise
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        for process in self._started.values():
+            process.terminate()
+        for process in self._started.values():
+            try:
+                process.wait(2.0)
+            except subprocess.TimeoutExpired:  # frozen, perhaps
+                process.kill()
+                process.wait()
+        for tied in [*self.tied, *self.gone]:
+            tied.connection.close()
+        self._listener.close()
+        self.mesh.close()
+        self._folder.cleanup()
+
+    def ask(self, tick: Tick) -> tuple[list[Commands], list[int]]:
+        """Let all buoys begin a step in lockstep: what they want, and who was lost meanwhile."""
+        awaited = {tied: tick.of(tied.ids) for tied in self.tied}
+        answers: list[Commands] = []
+        lost = [id for tied, part in awaited.items() if not tied.say(part.to_bytes()) for id in self._lose(tied)]
+        begun = asked = time.monotonic()
+        while awaited and not lost:
+            ready = wait([tied.connection for tied in awaited], timeout=ASK_AGAIN)
+            for tied in [tied for tied in awaited if tied.connection in ready]:
+                said = self.receive(tied)
+                if said is None:
+                    lost += self._lose(tied)
+                elif isinstance(said, Commands) and said[:2] == tick[:2]:
+                    answers.append(said)
+                    del awaited[tied]
+            now = time.monotonic()
+            if now - begun > PATIENCE:
+                lost += [id for tied in awaited for id in self.kill(tied)]
+            elif now - asked > ASK_AGAIN:
+                asked = now
+                for tied in self.tied:  # all: whose report is missing has perhaps answered
+                    tied.say(tick.of(tied.ids).to_bytes())
+        return answers, lost
+
+    def receive(self, tied: Tied) -> Commands | Note | Tick | None:
+        """What a process says; None if it is gone, or says what is no message."""
+        try:
+            return from_bytes(tied.connection.recv_bytes())
+        except (EOFError, OSError, MessageError):
+            return None
+
+    def lose(self, tied: Tied) -> list[int]:
+        """Take a process that is gone off the list; return its buoys."""
+        return self._lose(tied)
+
+    def kill(self, tied: Tied) -> list[int]:
+        """End a process at once, without asking it; return its buoys."""
+        process = self._started.get(tied.number)
+        if process is not None:
+            process.kill()
+            process.wait()
+        return self._lose(tied)
+
+    def of(self, id: int) -> Tied | None:
+        """The process of a buoy, if it is there."""
+        return next((tied for tied in self.tied if id in tied.ids), None)
+
+    def finish(self) -> list[dict[str, Any]]:
+        """Let all processes end; return what each measured."""
+        over = Note("over", {}).to_bytes()
+        waiting = [tied for tied in self.tied if tied.say(over)]
+        until = time.monotonic() + 5.0
+        facts = []
+        while waiting and time.monotonic() < until:
+            ready = wait([tied.connection for tied in waiting], timeout=0.5)
+            for tied in [tied for tied in waiting if tied.connection in ready]:
+                said = self.receive(tied)
+                if said is None or (isinstance(said, Note) and said.word == "bye"):
+                    waiting.remove(tied)
+                    facts += [said.facts] if isinstance(said, Note) else []
+        return facts
+
+    def _lose(self, tied: Tied) -> list[int]:
+        if tied in self.tied:
+            self.tied.remove(tied)
+            self.gone.append(tied)
+        return list(tied.ids)
+
+    def _start(self, file: Path, ids: tuple[int, ...]) -> "subprocess.Popen[bytes]":
+        host, port = self._listener.address[:2]
+        command = [sys.executable, "-m", "shoal", "buoy", str(file), "--id", ",".join(map(str, ids))]
+        command += ["--connect", f"{host}:{port}", *(["--plain"] if self._plain else [])]
+        root = str(Path(__file__).resolve().parents[2])
+        paths = [root, *filter(None, [os.environ.get("PYTHONPATH")])]
+        about = {**os.environ, KEY: self._key, "PYTHONPATH": os.pathsep.join(paths), "OPENBLAS_NUM_THREADS": "1"}
+        errors = (Path(self._folder.name) / f"errors-{ids[0]}").open("wb")
+        with errors:
+            return subprocess.Popen(
+                command,
+                env=about,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=errors,
+                start_new_session=True,  # Ctrl-C is for us: we end them
+            )
+
+    def _accept(self) -> None:
+        while True:
+            try:
+                self._arrived.put(self._listener.accept())
+            except (AuthenticationError, EOFError, ConnectionError):
+                continue  # a stranger
+            except OSError:
+                return  # closed
+
+    def _gather(self) -> None:
+        """Wait until every process is tied, knows its mesh and is ready.
+
+        Raises
+        ------
+        FleetError : one ended instead, or takes too long
+        """
+        until = time.monotonic() + STARTING
+        while len(self.tied) < len(self._shares):
+            self._check_start(until)
+            with suppress(queue.Empty):
+                self._greet(self._arrived.get(timeout=0.1))
+        waiting = list(self.tied)
+        while waiting:
+            self._check_start(until)
+            ready = wait([tied.connection for tied in waiting], timeout=0.1)
+            for tied in [tied for tied in waiting if tied.connection in ready]:
+                said = self.receive(tied)
+                if isinstance(said, Note) and said.word == "ready":
+                    waiting.remove(tied)
+                elif said is None:
+                    self._check_start(0.0)
+
+    def _greet(self, connection: "Connection[bytes, bytes]") -> None:
+        try:
+            hello = from_bytes(connection.recv_bytes())
+            if not isinstance(hello, Note) or hello.word != "hello":
+                raise MessageError("tether", "begins without hello", "connect buoys only")
+            ids = tuple(map(int, hello.facts["ids"]))
+            same = hello.facts["scenario"] == self._scenario.hash and hello.facts["seed"] == self._scenario.seed
+            if ids not in self._shares or any(tied.ids == ids for tied in self.tied) or not same:
+                problem = "has no such buoys left" if same else "is of another scenario or seed"
+                refusal = {"problem": problem, "fix": "give all buoys the scenario and ids of the fleet"}
+                connection.send_bytes(Note("refused", refusal).to_bytes())
+                return
+            connection.send_bytes(Note("welcome", self._welcome).to_bytes())
+            self.tied.append(Tied(ids, connection, int(hello.facts["process"])))
+        except (MessageError, EOFError, OSError, KeyError, TypeError, ValueError):
+            connection.close()
+
+    def _check_start(self, until: float) -> None:
+        for ids, process in zip(self._shares, self._started.values(), strict=False):
+            if process.poll() is not None:
+                raise self._failed(ids, f"ended with {process.returncode} before the fleet was together")
+        if time.monotonic() > until:
+            raise FleetError("fleet", f"is not together after {STARTING:g} s", "use fewer processes, or --plain")
+
+    def _failed(self, ids: tuple[int, ...], problem: str) -> FleetError:
+        """The error of a process that did not start, in its own words if it said any."""
+        said = (Path(self._folder.name) / f"errors-{ids[0]}").read_text(encoding="utf-8", errors="replace").strip()
+        lines = [line.strip() for line in said.removeprefix("shoal: ").splitlines() if line.strip()]
+        for number, line in enumerate(lines):
+            if line.startswith("fix: ") and number:
+                return FleetError(f"buoy {ids[0]}", f"{problem}: {lines[number - 1]}", line.removeprefix("fix: "))
+        return FleetError(f"buoy {ids[0]}", f"{problem}: {lines[-1] if lines else 'it said nothing'}", "correct it")
+
+
+def _free_port() -> int:
+    with socket.socket() as trial:
+        trial.bind((HOST, 0))
+        return int(trial.getsockname()[1])

@@ -1,0 +1,176 @@
+"""Run a fleet: a scenario in, a record out, of buoys that decide by themselves."""
+
+import math
+import os
+from collections import Counter
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from shoal.core.errors import FleetError
+from shoal.fleet.kills import Killing, kills_of
+from shoal.fleet.lockstep import Crowd, run_in_lockstep
+from shoal.fleet.log import Log
+from shoal.fleet.memory import InMemory
+from shoal.fleet.ocean import Ocean
+from shoal.fleet.paced import PacedSea, percentile
+from shoal.fleet.processes import Processes
+from shoal.record.files import RecordFolder
+from shoal.record.record import Record
+from shoal.scenario.load import Source, load
+
+MESHES = ("zenoh", "memory")
+
+
+@dataclass(frozen=True)
+class Terms:
+    """How a fleet is run.
+
+    Attributes
+    ----------
+    processes : that buoys run in; default: one for each core
+    lockstep : whether a step takes as long as all buoys need, instead of its time
+    speed : times real time; in lockstep, and in memory: at most, default as fast as it goes
+    kill : who is killed when, BUOY@STEP
+    mesh : "zenoh", between processes; "memory", all in this process, which is always in lockstep
+    max_age : steps that a report may be old to be heard; default: 0 in lockstep, else 1
+    plain : whether buoys decide without a compiler: they start at once, with less memory
+    """
+
+    processes: int | None = None
+    lockstep: bool = False
+    speed: float | None = None
+    kill: Sequence[str] = field(default=())
+    mesh: str = "zenoh"
+    max_age: int | None = None
+    plain: bool = False
+
+
+def run_fleet(
+    scenario: Source,
+    terms: Terms | None = None,
+    *,
+    out: str | Path | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Record:
+    """Run the buoys of a scenario by themselves in a stand-in for the sea, and return the record of what they did.
+
+    An interrupt ends it early: what was done until then is the record.
+
+    Parameters
+    ----------
+    scenario : what to run: a preset's name, a TOML file, a dict or a Scenario
+    terms : how; default: by the clock, on a mesh of zenoh, in a process for each core
+    out : write the record to this new folder
+    progress : called as progress(steps done, steps in all)
+
+    Raises
+    ------
+    ScenarioError, StrategyError : what cannot run, or what buoys cannot do
+    FleetError : buoys or terms that cannot be
+    MissingExtraError : zenoh is not installed
+    RecordError : `out` exists or cannot be written
+    """
+    scenario, terms = load(scenario), terms or Terms()
+    kills = kills_of(terms.kill, scenario.agents)
+    shares = _shares(scenario.agents, terms)
+    if out is not None:
+        with RecordFolder(out):  # refused now, not after the run
+            pass
+    in_memory = terms.mesh == "memory"
+    by_clock = not (terms.lockstep or in_memory)
+    period = scenario.time_step / (terms.speed or 1.0)
+    max_age = terms.max_age if terms.max_age is not None else int(by_clock)
+    ocean = Ocean(scenario)
+    notes: list[str] = []
+    report = progress or (lambda done, total: None)
+    with ExitStack() as stack:
+        crowd: Crowd
+        if in_memory:
+            crowd = InMemory(scenario, max_age=max_age)
+        else:
+            crowd = stack.enter_context(
+                Processes(scenario, shares, max_age=max_age, period=period if by_clock else None, plain=terms.plain)
+            )
+        killing, log = Killing(crowd, kills), Log(ocean)
+        sea = PacedSea(ocean, crowd, killing, log, period) if isinstance(crowd, Processes) and by_clock else None
+        try:
+            if sea:
+                sea.run(report)
+            else:
+                run_in_lockstep(ocean, killing, log, report, pace=period if terms.speed else None)
+        except KeyboardInterrupt:
+            if log.steps == 0:
+                raise
+            notes.append(f"interrupted after {log.steps:,} of {scenario.steps:,} steps")
+        facts = crowd.finish() if isinstance(crowd, Processes) else []
+        notes = [*notes, *_lost(log.lost), *(sea.notes() if sea else ()), *_measured(facts, by_clock)]
+    return log.record(notes, None if out is None else Path(out))
+
+
+def _shares(agents: int, terms: Terms) -> list[list[int]]:
+    """Which buoys are in one process each.
+
+    Raises
+    ------
+    FleetError : a term that cannot be
+    """
+    if terms.mesh not in MESHES:
+        raise FleetError("--mesh", f"is {terms.mesh!r}", f"there are: {', '.join(MESHES)}")
+    if terms.mesh == "memory" and terms.processes not in (None, 1):
+        raise FleetError("--mesh memory", "is within one process", "leave out --processes, or take --mesh zenoh")
+    for name, number, least, most in (
+        ("--processes", terms.processes, 1, agents),
+        ("--speed", terms.speed, 0.001, 1000.0),
+        ("--max-age", terms.max_age, 0, 1000),
+    ):
+        if number is not None and not (math.isfinite(number) and least <= number <= most):
+            raise FleetError(name, f"is {number:g}", f"give {least:g} to {most:g}")
+    processes = terms.processes or min(os.cpu_count() or 1, agents)
+    return [list(range(agents))[agents * p // processes : agents * (p + 1) // processes] for p in range(processes)]
+
+
+def _lost(lost: list[tuple[int, int]]) -> list[str]:
+    steps = sorted({step for step, _ in lost})
+    return [
+        f"lost at step {step:,}: buoy {', '.join(str(id) for then, id in sorted(lost) if then == step)}"
+        for step in steps
+    ]
+
+
+def _measured(facts: list[dict[str, Any]], by_clock: bool) -> list[str]:
+    """What the processes measured, in sentences."""
+    if not facts:
+        return []
+    buoy_seconds = sum(len(each["ids"]) * each["seconds"] for each in facts)
+    spent = sum(each["spent"] for each in facts)
+    counts: Counter[str] = Counter()
+    for each in facts:
+        counts.update(each["counts"])
+    dropped = [f"{counts[word]:,} {word}" for word in ("late", "duplicate", "early", "damaged", "strange", "reordered")]
+    notes = [
+        f"{1000 * spent / max(buoy_seconds, 1e-9):.2f} ms of processor per buoy and second, "
+        f"{max(each['memory'] for each in facts) / 2**20:.0f} MiB in the largest of {len(facts)} processes",
+        f"of the reports that arrived {counts['new']:,} were new; {', '.join(dropped)}",
+    ]
+    if by_clock:
+        delays, ages = (_summed(facts, name) for name in ("delays", "ages"))
+        heard = {age: count for age, count in ages.items() if age >= 0}
+        mean = sum(age * count for age, count in heard.items()) / max(1, sum(heard.values()))
+        notes += [
+            f"reports arrived {percentile(delays, 0.5)} ms after their step began (median; 99 %: "
+            f"{percentile(delays, 0.99)} ms)",
+            f"decisions were on reports {mean:.4f} steps old on average; {ages.get(-1, 0) / max(1, sum(ages.values())):.3%} "
+            "of those who are there were not heard in time",
+            f"{sum(each['skipped'] for each in facts):,} steps passed without a decision of a process",
+        ]
+    return notes
+
+
+def _summed(facts: list[dict[str, Any]], name: str) -> dict[int, int]:
+    found: Counter[int] = Counter()
+    for each in facts:
+        found.update({int(key): count for key, count in each.get(name, {}).items()})
+    return dict(found)
