@@ -37,7 +37,11 @@ def show(
         check_figure(figure)
     known = opened(record)
     if json_:
-        write(json.dumps(known.summary()) + "\n")
+        from shoal.record.frames import trajectory_sha256
+
+        first = known.trajectories.get(0)
+        sha256 = None if first is None else trajectory_sha256(first, known.scenario.steps)
+        write(json.dumps({**known.summary(), "trajectory_sha256": sha256}) + "\n")
     else:
         print_record(known)
     if figure:

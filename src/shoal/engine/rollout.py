@@ -13,7 +13,7 @@ from shoal.engine.step import Now, Parts, step, tell
 from shoal.strategies import contract
 from shoal.world.placement import draw_sides, place
 from shoal.world.position import begin_errors, locate
-from shoal.world.presence import draw_lifetimes, draw_losses, update_presence
+from shoal.world.presence import draw_lifetimes, draw_losses, lose, update_presence
 from shoal.world.radio import begin_degree
 from shoal.world.targets.dispatch import begin_target
 
@@ -42,7 +42,7 @@ def set_out(stage, places, lifetimes, losses):
     draw_lifetimes(swarm, world, lifetimes, run_key)
     for number, fleet, count, agent in losses:
         if agent >= 0:
-            swarm.leaves[agent] = min(swarm.leaves[agent], number)
+            lose(swarm, number, agent)
         else:
             draw_losses(swarm, world, number, fleet, count, run_key)
     update_presence(swarm, world, 0)

@@ -1,5 +1,6 @@
 """What frames show, measured: how many are on a target, Xi, phi, and whom agents hear. Nothing else measures frames."""
 
+import hashlib
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,6 +19,20 @@ PHI_EDGES = np.concatenate([[-1.0], (CENTERS[:-1] + CENTERS[1:]) / 2, [1.0]])  #
 
 _tally_moment: Any = tally_moment  # kernels have no types that mypy sees
 _TARGET = np.dtype([("x", np.float64), ("y", np.float64), ("present", np.int64)])
+
+
+def trajectory_sha256(frames: Trajectory, steps: int) -> str | None:
+    """SHA-256 of where all agents were: little-endian doubles x (N,), then y (N,), of one frame after the other.
+
+    None unless the frames of all of so many steps were kept.
+    """
+    if len(frames.step) != steps:
+        return None
+    digest = hashlib.sha256()
+    for x, y in zip(frames.x, frames.y, strict=True):
+        for each in (x, y):
+            digest.update(np.ascontiguousarray(each, "<f8").tobytes())
+    return digest.hexdigest()
 
 
 def engaged_by_frame(frames: Trajectory) -> npt.NDArray[np.int64]:

@@ -52,6 +52,12 @@ def draw_losses(swarm, world, number, fleet, count, run_key):
 
 
 @kernel
+def lose(swarm, number, agent):
+    """Let an agent leave at step `number`, unless it left before."""
+    swarm.leaves[agent] = min(swarm.leaves[agent], number)
+
+
+@kernel
 def update_presence(swarm, world, number):
     """Set which agents are alive at step `number` and return how many; the others lie still."""
     active = 0
