@@ -72,7 +72,9 @@ class Aboard:
 
     def missing(self, tick: Tick) -> set[int]:
         """Whose reports of a step have not arrived."""
-        return set() if tick.step % self._interval else self.inbox.missing(tick.step, np.flatnonzero(tick.alive).tolist())
+        if tick.step % self._interval:
+            return set()
+        return self.inbox.missing(tick.step, np.flatnonzero(tick.alive).tolist())
 
     def act(self, tick: Tick) -> Commands:
         """What they want at a step, from what they measure and hear."""
@@ -92,7 +94,7 @@ class Aboard:
         return self._commands(tick, wants)
 
     def spoken(self, step: int) -> int:
-        """The step at which was said what is heard at a step, if nothing is late: the simulator's radio has the same."""
+        """The step at which was said what is heard at a step, if nothing is late: that of the simulator's radio."""
         arrived = step - self._delay
         return arrived - arrived % self._interval
 

@@ -165,7 +165,10 @@ class Buoy:
     def _own(self, reading: Reading, step: int) -> Own:
         return Own(
             self.id,
-            *map(float, reading[:4]),
+            float(reading.x),
+            float(reading.y),
+            float(reading.vx),
+            float(reading.vy),
             bool(reading.on_target),
             self._make.max_speed,
             self._time_step,

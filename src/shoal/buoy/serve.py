@@ -1,11 +1,10 @@
 """What runs on one computer: some buoys, a mesh, and a tether to the sea that they are in."""
 
-import os
-import sys
 import time
 from collections.abc import Sequence
 from multiprocessing import AuthenticationError
 from multiprocessing.connection import Client, Connection
+from pathlib import Path
 from typing import Any
 
 from shoal.buoy.aboard import Aboard
@@ -49,13 +48,11 @@ def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: b
         raise FleetError(where, problem, "start the fleet first, and name its address") from None
     with connection:
         try:
-            _say(connection, "hello", ids=list(ids), scenario=scenario.hash, seed=scenario.seed, process=os.getpid())
+            _say(connection, "hello", ids=list(ids), scenario=scenario.hash, seed=scenario.seed)
             welcome = _note(connection, where, "welcome")
             aboard = Aboard(scenario, ids, run=welcome["run"], max_age=welcome["max_age"])
             _warm(aboard)
-            mesh = ZenohMesh(
-                welcome["fleet"], str(min(ids)), connect=welcome["connect"], listen=welcome["listen"]
-            )
+            mesh = ZenohMesh(welcome["fleet"], str(min(ids)), connect=welcome["connect"], listen=welcome["listen"])
             try:
                 _meet(mesh, welcome["nodes"])
                 _say(connection, "ready")
@@ -128,10 +125,9 @@ def _note(connection: "Connection[bytes, bytes]", where: str, word: str) -> dict
 
 
 def _memory() -> int:
-    """The most memory that this process had [B]."""
-    if sys.platform == "win32":
+    """The most memory that this process had [B], 0 where the system does not say."""
+    try:
+        lines = Path("/proc/self/status").read_text(encoding="ascii", errors="replace").splitlines()
+    except OSError:
         return 0
-    import resource
-
-    most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return most if sys.platform == "darwin" else 1024 * most
+    return next((1024 * int(line.split()[1]) for line in lines if line.startswith("VmHWM:")), 0)

@@ -33,7 +33,8 @@ class Tick(NamedTuple):
     """Step `step` begins for the n buoys of a process that are there; N agents.
 
     turn : 0, or how often this step was begun again because a buoy was lost in it
-    readings : (n,) of READINGS; alive : (N,) who of the swarm is there; hears : (n, N) whom each hears, None: whom it can
+    readings : (n,) of READINGS; alive : (N,) who of the swarm is there
+    hears : (n, N) whom each hears; None: whomever its reports reach
     """
 
     step: int

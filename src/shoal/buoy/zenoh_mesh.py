@@ -52,7 +52,7 @@ class ZenohMesh:
             **(config or {}),
         }
         self._arrived: queue.SimpleQueue[bytes] = queue.SimpleQueue()
-        self._fleet = fleet
+        self._nodes: set[str] = set()
         try:
             for path, value in wanted.items():
                 settings.insert_json5(path, json.dumps(value))
@@ -64,6 +64,9 @@ class ZenohMesh:
                 priority=zenoh.Priority.REAL_TIME,
                 express=True,
             )
+            self._watch = self._session.liveliness().declare_subscriber(
+                f"{fleet}/alive/*", self._take_note, history=True
+            )
             self._token = self._session.liveliness().declare_token(f"{fleet}/alive/{node}")
         except zenoh.ZError as error:
             where = ", ".join([listen, *connect])
@@ -72,6 +75,14 @@ class ZenohMesh:
 
     def _take_in(self, sample: Any) -> None:
         self._arrived.put(bytes(sample.payload))
+
+    def _take_note(self, sample: Any) -> None:
+        """Somebody came, or is gone."""
+        name = str(sample.key_expr)
+        if str(sample.kind).endswith("PUT"):
+            self._nodes.add(name)
+        else:
+            self._nodes.discard(name)
 
     def publish(self, data: bytes) -> None:
         """Send a message to all who are there."""
@@ -83,8 +94,7 @@ class ZenohMesh:
 
     def alive(self) -> int:
         """Return how many nodes are there, this one included."""
-        replies = self._session.liveliness().get(f"{self._fleet}/alive/*", timeout=1.0)
-        return len({str(reply.ok.key_expr) for reply in replies if reply.ok is not None})
+        return len(self._nodes)
 
     def close(self) -> None:
         """Leave."""

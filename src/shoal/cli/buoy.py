@@ -51,5 +51,6 @@ def buoy(
         raise FleetError("--connect", f"is {quoted(connect)}", "give HOST:PORT, such as 127.0.0.1:7447")
     key = os.environ.get(KEY, "")
     if not re.fullmatch(r"([0-9a-fA-F]{2}){8,64}", key):
-        raise FleetError(f"${KEY}", "holds no key" if not key else "is no key", "set it to the key of the fleet, in hex")
+        problem = "is no key" if key else "holds no key"
+        raise FleetError(f"${KEY}", problem, "set it to the key of the fleet, in hex")
     serve(scenario, ids, (host, int(port)), bytes.fromhex(key))

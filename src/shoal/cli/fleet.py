@@ -90,6 +90,7 @@ def fleet(
     """
     load_compiler()
     from shoal.fleet.run_fleet import Terms, run_fleet
+    from shoal.run.compiling import BUOYS
     from shoal.scenario.load import scenario_from
 
     changes: dict[str, Any] = {
@@ -104,7 +105,7 @@ def fleet(
     check_places(out, figure)
     chosen = scenario_from(edited_table(scenario, changes, assignments or [], target_track, track_id), where=scenario)
     terms = Terms(processes, lockstep, speed, tuple(kill or ()), mesh, max_age, plain)
-    tell_of_compiling(chosen)
+    tell_of_compiling(chosen, BUOYS)
     note(f"{chosen.agents} buoys start (Ctrl-C ends the run, and keeps what was done)")
     with progress_bar(f"{chosen.name}, {chosen.agents} buoys, {chosen.steps:,} steps") as progress:
         record = run_fleet(chosen, terms, out=out, progress=progress)

@@ -24,12 +24,12 @@ def load_compiler() -> None:
         del sys.modules[wanted]
 
 
-def tell_of_compiling(scenario: "Scenario") -> None:
-    """Say so if the first step will compile the engine for this strategy."""
+def tell_of_compiling(scenario: "Scenario", whose: str = "") -> None:
+    """Say so if the first step will compile the engine for this strategy, or for its buoys."""
     from shoal.run.compiling import engine_is_compiled, needs_compiling, why_not_kept
     from shoal.scenario.crew import crew_of
 
-    if needs_compiling(scenario):
+    if needs_compiling(scenario, whose):
         crew, seconds = crew_of(scenario), 5 if engine_is_compiled() else 20
         once = why_not_kept(crew) or "once per version of Shoal"
         note(f"compiling the engine for strategy {crew.name!r} (about {seconds} s, {once})")

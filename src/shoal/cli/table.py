@@ -87,7 +87,7 @@ def _joining(scenario: Scenario, fleet: str) -> str:
 def _change(record: Record, step: int) -> str:
     """How many agents are lost and join at a step."""
     counts = {
-        words: sum(getattr(each, "size", each.count) for each in changes if each.step == step)
+        words: sum(each.size for each in changes if each.step == step)
         for changes, words in ((record.scenario.losses, "lost"), (record.scenario.joins, "join"))
     }
     return ", ".join(f"{count} {words}" for words, count in counts.items() if count)

@@ -58,4 +58,3 @@ def run_in_lockstep(
         progress(ocean.number, steps)
         if pace:
             time.sleep(max(0.0, begin + ocean.number * pace - time.monotonic()))
-

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.fleet.ocean import Ocean
-from shoal.record.files import save_record, open_record
+from shoal.record.files import open_record, save_record
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.run.facts import facts_of

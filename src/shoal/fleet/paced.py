@@ -131,5 +131,3 @@ def percentile(counts: dict[int, int], share: float) -> int:
         if below >= share * total:
             return value
     return 0
-
-

@@ -32,13 +32,11 @@ PATIENCE = 30.0  # and after which a process that does not answer is ended
 
 
 class Tied:
-    """One process of buoys: its connection and, where we started it, its handle."""
+    """One process of buoys: which, and the connection to it."""
 
-    def __init__(self, ids: tuple[int, ...], connection: "Connection[bytes, bytes]", number: int) -> None:
+    def __init__(self, ids: tuple[int, ...], connection: "Connection[bytes, bytes]") -> None:
         self.ids = ids
         self.connection = connection
-        self.number = number
-        self.facts: dict[str, Any] | None = None
 
     def say(self, message: bytes) -> bool:
         """Send it something; False if it is gone."""
@@ -85,7 +83,7 @@ class Processes:
         self.gone: list[Tied] = []
         self._scenario = scenario
         self._shares = [tuple(each) for each in shares]
-        self._started: dict[int, subprocess.Popen[bytes]] = {}
+        self._started: dict[tuple[int, ...], subprocess.Popen[bytes]] = {}
         self._arrived: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._folder = TemporaryDirectory(prefix="shoal-fleet-")
         self._key = secrets.token_hex(32)
@@ -110,8 +108,7 @@ class Processes:
             file.write_text(to_toml(self._scenario), encoding="utf-8")
             threading.Thread(target=self._accept, daemon=True).start()
             for ids in self._shares:
-                process = self._start(file, ids)
-                self._started[process.pid] = process
+                self._started[ids] = self._start(file, ids)
             self._gather()
         except BaseException:
             self.__exit__(None, None, None)
@@ -172,7 +169,7 @@ class Processes:
 
     def kill(self, tied: Tied) -> list[int]:
         """End a process at once, without asking it; return its buoys."""
-        process = self._started.get(tied.number)
+        process = self._started.get(tied.ids)
         if process is not None:
             process.kill()
             process.wait()
@@ -251,7 +248,7 @@ class Processes:
                 if isinstance(said, Note) and said.word == "ready":
                     waiting.remove(tied)
                 elif said is None:
-                    self._check_start(0.0)
+                    raise self._failed(tied.ids)
 
     def _greet(self, connection: "Connection[bytes, bytes]") -> None:
         try:
@@ -266,25 +263,32 @@ class Processes:
                 connection.send_bytes(Note("refused", refusal).to_bytes())
                 return
             connection.send_bytes(Note("welcome", self._welcome).to_bytes())
-            self.tied.append(Tied(ids, connection, int(hello.facts["process"])))
+            self.tied.append(Tied(ids, connection))
         except (MessageError, EOFError, OSError, KeyError, TypeError, ValueError):
             connection.close()
 
     def _check_start(self, until: float) -> None:
-        for ids, process in zip(self._shares, self._started.values(), strict=False):
+        for ids, process in self._started.items():
             if process.poll() is not None:
-                raise self._failed(ids, f"ended with {process.returncode} before the fleet was together")
+                raise self._failed(ids)
         if time.monotonic() > until:
             raise FleetError("fleet", f"is not together after {STARTING:g} s", "use fewer processes, or --plain")
 
-    def _failed(self, ids: tuple[int, ...], problem: str) -> FleetError:
-        """The error of a process that did not start, in its own words if it said any."""
-        said = (Path(self._folder.name) / f"errors-{ids[0]}").read_text(encoding="utf-8", errors="replace").strip()
-        lines = [line.strip() for line in said.removeprefix("shoal: ").splitlines() if line.strip()]
-        for number, line in enumerate(lines):
-            if line.startswith("fix: ") and number:
-                return FleetError(f"buoy {ids[0]}", f"{problem}: {lines[number - 1]}", line.removeprefix("fix: "))
-        return FleetError(f"buoy {ids[0]}", f"{problem}: {lines[-1] if lines else 'it said nothing'}", "correct it")
+    def _failed(self, ids: tuple[int, ...]) -> FleetError:
+        """The error of a process that ended, in its own words if it said any."""
+        code = self._started[ids].wait()
+        said, fix = self.words(ids)
+        problem = f"ended before the fleet was together: {said or f'with code {code}, and no word'}"
+        return FleetError(f"buoy {ids[0]}", problem, fix or "see what ended it")
+
+    def words(self, ids: tuple[int, ...]) -> tuple[str, str]:
+        """What a process said last on stderr, and how it is to be mended; empty if it said nothing."""
+        text = (Path(self._folder.name) / f"errors-{ids[0]}").read_text(encoding="utf-8", errors="replace")
+        lines = [line.strip().removeprefix("shoal: ") for line in text.splitlines() if line.strip()]
+        for number in range(len(lines) - 1, 0, -1):
+            if lines[number].startswith("fix: "):
+                return lines[number - 1], lines[number].removeprefix("fix: ")
+        return (lines[-1] if lines else ""), ""
 
 
 def _free_port() -> int:

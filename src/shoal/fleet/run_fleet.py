@@ -19,6 +19,7 @@ from shoal.fleet.paced import PacedSea, percentile
 from shoal.fleet.processes import Processes
 from shoal.record.files import RecordFolder
 from shoal.record.record import Record
+from shoal.run.compiling import BUOYS, mark_compiled
 from shoal.scenario.load import Source, load
 
 MESHES = ("zenoh", "memory")
@@ -94,6 +95,7 @@ def run_fleet(
             crowd = stack.enter_context(
                 Processes(scenario, shares, max_age=max_age, period=period if by_clock else None, plain=terms.plain)
             )
+        mark_compiled(scenario, BUOYS)
         killing, log = Killing(crowd, kills), Log(ocean)
         sea = PacedSea(ocean, crowd, killing, log, period) if isinstance(crowd, Processes) and by_clock else None
         try:
@@ -157,13 +159,14 @@ def _measured(facts: list[dict[str, Any]], by_clock: bool) -> list[str]:
     ]
     if by_clock:
         delays, ages = (_summed(facts, name) for name in ("delays", "ages"))
-        heard = {age: count for age, count in ages.items() if age >= 0}
-        mean = sum(age * count for age, count in heard.items()) / max(1, sum(heard.values()))
+        unheard = ages.pop(-1, 0)
+        heard = sum(ages.values())
+        mean = sum(age * count for age, count in ages.items()) / max(1, heard)
         notes += [
             f"reports arrived {percentile(delays, 0.5)} ms after their step began (median; 99 %: "
             f"{percentile(delays, 0.99)} ms)",
-            f"decisions were on reports {mean:.4f} steps old on average; {ages.get(-1, 0) / max(1, sum(ages.values())):.3%} "
-            "of those who are there were not heard in time",
+            f"decisions were on reports {mean:.4f} steps old on average; {unheard / max(1, unheard + heard):.3%} of "
+            "the reports of those who were there did not come in time",
             f"{sum(each['skipped'] for each in facts):,} steps passed without a decision of a process",
         ]
     return notes

@@ -6,11 +6,13 @@ from shoal.compiler.kernel import cache_folder, why_uncached
 from shoal.scenario.crew import Crew, crew_of
 from shoal.scenario.schema import Scenario
 
+BUOYS = "buoys-"  # what the engine is compiled for beside the strategies of simulated agents
 
-def needs_compiling(scenario: Scenario) -> bool:
-    """Whether the first step will compile the engine for this strategy, which it does once per version."""
+
+def needs_compiling(scenario: Scenario, whose: str = "") -> bool:
+    """Whether the first step will compile the engine for this strategy, or its BUOYS: once per version."""
     crew = crew_of(scenario)
-    return not crew.builtin or not _compiled_mark(crew.name).exists()
+    return not crew.builtin or not _compiled_mark(whose + crew.name).exists()
 
 
 def engine_is_compiled() -> bool:
@@ -26,12 +28,12 @@ def why_not_kept(crew: Crew) -> str | None:
     return why and f"every time: {why}"
 
 
-def mark_compiled(scenario: Scenario) -> None:
-    """Remember that this strategy's engine is in the cache."""
+def mark_compiled(scenario: Scenario, whose: str = "") -> None:
+    """Remember that this strategy's engine, or that of its BUOYS, is in the cache."""
     crew = crew_of(scenario)
     if crew.builtin:
         try:
-            _compiled_mark(crew.name).touch()
+            _compiled_mark(whose + crew.name).touch()
         except OSError:
             return  # only a message depends on it
 

@@ -183,6 +183,11 @@ class Join(Frozen):
     count: Count = Field(description="number of agents")
     fleet: str = Field(description="of which fleet they are")
 
+    @property
+    def size(self) -> int:
+        """Number of agents."""
+        return self.count
+
 
 class Network(Frozen):
     """Which agents hear which, and what gets lost."""
