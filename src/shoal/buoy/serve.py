@@ -18,7 +18,7 @@ from shoal.core.messages import Reading
 from shoal.scenario.load import Source, load
 
 KEY = "SHOAL_FLEET_KEY"  # of the environment: what proves to the sea that a buoy is one of its own
-_MEETING = 60.0  # seconds in which all nodes of a mesh find each other
+_MEETING = 240.0  # seconds in which all nodes of a mesh find each other: many processes start slowly
 
 
 def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: bytes) -> None:
@@ -54,7 +54,7 @@ def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: b
             _warm(aboard)
             mesh = ZenohMesh(welcome["fleet"], str(min(ids)), connect=welcome["connect"], listen=welcome["listen"])
             try:
-                _meet(mesh, welcome["nodes"])
+                _meet(mesh, welcome["nodes"], connection)
                 _say(connection, "ready")
                 _work(aboard, mesh, connection, welcome, scenario.agents)
             finally:
@@ -97,18 +97,20 @@ def _warm(aboard: Aboard) -> None:
     buoy.restore(state)
 
 
-def _meet(mesh: Mesh, nodes: int) -> None:
+def _meet(mesh: Mesh, nodes: int, connection: "Connection[bytes, bytes]") -> None:
     """Wait until all nodes of the mesh are there.
 
     Raises
     ------
-    FleetError : they are not in a minute
+    FleetError : they do not come
+    EOFError, OSError : the sea is gone
     """
     begun = time.monotonic()
     while (there := mesh.alive()) < nodes:
         if time.monotonic() - begun > _MEETING:
             raise FleetError("mesh", f"has {there} of {nodes} nodes after {_MEETING:g} s", "see why the others end")
-        time.sleep(0.02)
+        if connection.poll(0.02):
+            connection.recv_bytes()  # it says nothing now: it is gone
 
 
 def _say(connection: "Connection[bytes, bytes]", word: str, **facts: Any) -> None:

@@ -1,5 +1,6 @@
 """A mesh of zenoh peers: no router, no broker. The only file that imports zenoh (extra: fleet)."""
 
+import atexit
 import json
 import queue
 from collections.abc import Sequence
@@ -8,17 +9,20 @@ from typing import Any
 from shoal.buoy.mesh import drained
 from shoal.core.errors import FleetError, MissingExtraError
 
-LEASE = 2_000  # after so many milliseconds of silence a peer counts as gone
+_PATIENCE = 60_000  # milliseconds in which a busy machine may open a link
+_RETRY = {"period_init_ms": 200, "period_max_ms": 2_000, "period_increase_factor": 1.5}  # of links that broke, too
 
 
 class ZenohMesh:
-    """A node of a mesh over TCP: it listens, connects to the nodes that it knows, and learns of the others from them.
+    """A node of a mesh over TCP: it listens, and connects to the nodes that it is told of, again when a link breaks.
+
+    No node passes on what another says: each pair needs a link, so that one of the two is told of the other.
 
     Parameters
     ----------
     fleet : what the mesh is called; those of another name are not heard
     node : what this node is called
-    connect : addresses of nodes to connect to, such as tcp/127.0.0.1:7447; all others are learned from them
+    connect : addresses of nodes to connect to, such as tcp/127.0.0.1:7447; they need not be there yet
     listen : address to listen at; the default can be reached from this machine only, on a free port
     config : more of zenoh's own configuration, by its paths, such as {"transport/link/tls/root_ca_certificate": FILE}
 
@@ -47,8 +51,12 @@ class ZenohMesh:
             "listen/endpoints": [listen],
             "connect/endpoints": list(connect),
             "scouting/multicast/enabled": False,
-            "scouting/gossip/enabled": True,
-            "transport/link/tx/lease": LEASE,
+            "scouting/gossip/enabled": False,
+            "connect/timeout_ms": -1,  # try for ever
+            "connect/exit_on_failure": False,
+            "connect/retry": _RETRY,
+            "transport/unicast/open_timeout": _PATIENCE,
+            "transport/unicast/accept_timeout": _PATIENCE,
             **(config or {}),
         }
         self._arrived: queue.SimpleQueue[bytes] = queue.SimpleQueue()
@@ -57,6 +65,7 @@ class ZenohMesh:
             for path, value in wanted.items():
                 settings.insert_json5(path, json.dumps(value))
             self._session = zenoh.open(settings)
+            atexit.register(self.close)  # Python would wait for its threads for ever
             self._heard = self._session.declare_subscriber(f"{fleet}/reports", self._take_in)
             self._publisher = self._session.declare_publisher(
                 f"{fleet}/reports",
@@ -98,4 +107,6 @@ class ZenohMesh:
 
     def close(self) -> None:
         """Leave."""
-        self._session.close()
+        atexit.unregister(self.close)
+        if not self._session.is_closed():
+            self._session.close()

@@ -38,6 +38,7 @@ class Log:
         self._ocean = ocean
         self._fields = crew_of(ocean.simulation.scenario).memory
         self._frames: list[Trajectory] = []
+        self._wants: list[npt.NDArray[np.float64]] = []
         self._memory = np.zeros((ocean.simulation.scenario.agents, len(self._fields)))
         self._begun, self._started = perf_counter(), datetime.now(UTC)
 
@@ -51,7 +52,8 @@ class Log:
         self._memory[ids] = memory
 
     def keep(self, frame: Trajectory) -> None:
-        """Keep the frame of a step, which began with what buoys remembered."""
+        """Keep the frame of a step, which began with what buoys remembered; puppets remember what they want."""
+        self._wants.append(np.stack([frame.memory["want_x"][0], frame.memory["want_y"][0]], axis=1))
         memory = {name: self._memory[None, :, m].copy() for m, name in enumerate(self._fields)}
         self._frames.append(replace(frame, memory=memory))
 
@@ -83,10 +85,9 @@ class Log:
         """The sums of a run that ended early, in the batches of its length."""
         again = Ocean(scenario, self._ocean.simulation.run)
         everybody = np.arange(scenario.agents, dtype=np.int32)
-        for frame in self._frames[1:]:
-            again.obey(everybody, np.stack([frame.command_x[0], frame.command_y[0]], axis=1))
+        for wants in self._wants:
+            again.obey(everybody, wants)
             again.advance()
-        again.advance()
         return again.simulation.tally
 
 

@@ -9,7 +9,7 @@ import sys
 import threading
 import time
 from collections.abc import Sequence
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from multiprocessing import AuthenticationError
 from multiprocessing.connection import Connection, Listener, wait
 from pathlib import Path
@@ -90,12 +90,10 @@ class Processes:
         self._plain = plain
         self._listener = Listener((HOST, 0), authkey=bytes.fromhex(self._key), backlog=max(16, len(self._shares)))
         name = f"shoal/{secrets.token_hex(4)}"
-        seed = f"tcp/{HOST}:{_free_port()}"
-        self.mesh: Mesh = ZenohMesh(name, "sea", listen=seed)
+        self._places = [f"tcp/{HOST}:{port}" for port in _free_ports(len(self._shares) + 1)]
+        self.mesh: Mesh = ZenohMesh(name, "sea", listen=self._places[-1])
         self._welcome = {
             "fleet": name,
-            "connect": [seed],
-            "listen": f"tcp/{HOST}:0",
             "nodes": len(self._shares) + 1,
             "run": run,
             "max_age": max_age,
@@ -118,14 +116,17 @@ class Processes:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        try:
+            self._end()
+        except KeyboardInterrupt:  # a second one: nothing may be left running
+            self._end()
+            raise
+
+    def _end(self) -> None:
         for process in self._started.values():
-            process.terminate()
+            process.kill()  # whoever was asked to end has; nobody keeps anything
         for process in self._started.values():
-            try:
-                process.wait(2.0)
-            except subprocess.TimeoutExpired:  # frozen, perhaps
-                process.kill()
-                process.wait()
+            process.wait()
         for tied in [*self.tied, *self.gone]:
             tied.connection.close()
         self._listener.close()
@@ -262,7 +263,9 @@ class Processes:
                 refusal = {"problem": problem, "fix": "give all buoys the scenario and ids of the fleet"}
                 connection.send_bytes(Note("refused", refusal).to_bytes())
                 return
-            connection.send_bytes(Note("welcome", self._welcome).to_bytes())
+            number = self._shares.index(ids)
+            mesh = {"listen": self._places[number], "connect": [*self._places[:number], self._places[-1]]}
+            connection.send_bytes(Note("welcome", {**self._welcome, **mesh}).to_bytes())
             self.tied.append(Tied(ids, connection))
         except (MessageError, EOFError, OSError, KeyError, TypeError, ValueError):
             connection.close()
@@ -291,7 +294,10 @@ class Processes:
         return (lines[-1] if lines else ""), ""
 
 
-def _free_port() -> int:
-    with socket.socket() as trial:
-        trial.bind((HOST, 0))
-        return int(trial.getsockname()[1])
+def _free_ports(count: int) -> list[int]:
+    """Ports that nobody listens at now."""
+    with ExitStack() as stack:
+        trials = [stack.enter_context(socket.socket()) for _ in range(count)]
+        for trial in trials:
+            trial.bind((HOST, 0))
+        return [int(trial.getsockname()[1]) for trial in trials]
