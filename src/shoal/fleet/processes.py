@@ -133,6 +133,11 @@ class Processes:
         self.mesh.close()
         self._folder.cleanup()
 
+    @property
+    def pids(self) -> dict[tuple[int, ...], int]:
+        """The number that the system gave the process of some buoys."""
+        return {ids: process.pid for ids, process in self._started.items()}
+
     def ask(self, tick: Tick) -> tuple[list[Commands], list[int]]:
         """Let all buoys begin a step in lockstep: what they want, and who was lost meanwhile."""
         awaited = {tied: tick.of(tied.ids) for tied in self.tied}
