@@ -29,6 +29,7 @@ scored seek seen self sensing sensitivity sensor server several shoal show side 
 startup statement statistic stop stopped strategy style suited summary swept table text tide top tree turn uniform
 unknown varied vehicle version view wanted watch watched weight word writer xml
 datagram port serial stream unready
+aboard killing note paced process serve term tied zenoh
 """  # words that mean what any dictionary says, and file formats
 PLAIN = frozenset(DICTIONARY.split())
 KINDS = [*TARGETS, *DISTURBANCES]

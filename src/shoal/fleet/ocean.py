@@ -1,7 +1,6 @@
 """The stand-in for the sea: the engine's own world, whose agents want what buoys outside want."""
 
 from collections.abc import Iterable
-from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -13,7 +12,6 @@ from shoal.record.trajectory import Trajectory
 from shoal.run.simulation import Simulation
 from shoal.scenario.crew import Crew, crew_of
 from shoal.scenario.schema import Scenario
-from shoal.strategies.puppet import PUPPET, Puppet
 
 
 class Ocean:
@@ -52,11 +50,7 @@ class Ocean:
         if not self.ideal and scenario.agents > MOST_LINKED:
             problem = f"has limited radios and {scenario.agents} agents, but whom each hears is known of {MOST_LINKED}"
             raise ScenarioError(scenario.name, problem, f"take {MOST_LINKED} agents at most, or radios without limits")
-        puppets = tuple(
-            replace(PUPPET, name=each.name, hears_all=each.hears_all, source=each.source) for each in crew.strategies
-        )
-        puppeteer = Crew(strategies=puppets, params=Puppet(), memory=tuple(PUPPET.memory), told=())
-        self.simulation = Simulation(scenario, run, crew=puppeteer)
+        self.simulation = Simulation(scenario, run, crew=crew.puppets())
         self._agents = scenario.agents
         self.leaves = self.simulation.swarm.leaves[: scenario.agents].copy()
 

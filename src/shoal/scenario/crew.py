@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from shoal.core.errors import ScenarioError
@@ -11,6 +11,7 @@ from shoal.scenario.strategy_choice import StrategyChoice
 from shoal.strategies import Strategy
 from shoal.strategies.compiled import compiled_for
 from shoal.strategies.errors import strategy_errors
+from shoal.strategies.puppet import PUPPET
 from shoal.strategies.team import MOST, depth_of, team
 
 
@@ -59,6 +60,13 @@ class Crew:
     def compiled(self, *entries: Callable[..., Any]) -> tuple[Callable[..., Any], ...]:
         """Entry kernels of the engine, or of a buoy, for these strategies."""
         return compiled_for(self.strategies, *entries)
+
+    def puppets(self) -> "Crew":
+        """The same agents by name, wanting what somebody outside writes into their memory: want_x, want_y [m/s]."""
+        hands = tuple(
+            replace(PUPPET, name=each.name, hears_all=each.hears_all, source=each.source) for each in self.strategies
+        )
+        return Crew(strategies=hands, params=PUPPET.params(), memory=tuple(PUPPET.memory), told=())
 
     def naming_errors(self) -> AbstractContextManager[None]:
         """A context in which what a user's strategy gets wrong becomes one StrategyError that names its line."""
