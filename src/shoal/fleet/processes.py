@@ -83,15 +83,15 @@ class Processes:
         self.gone: list[Tied] = []
         self._scenario = scenario
         self._shares = [tuple(each) for each in shares]
+        self._plain = plain
         self._started: dict[tuple[int, ...], subprocess.Popen[bytes]] = {}
         self._arrived: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        self._places = [f"tcp/{HOST}:{port}" for port in _free_ports(len(self._shares) + 1)]
+        name = f"shoal/{secrets.token_hex(4)}"
+        self.mesh: Mesh = ZenohMesh(name, "sea", listen=self._places[-1])
         self._folder = TemporaryDirectory(prefix="shoal-fleet-")
         self._key = secrets.token_hex(32)
-        self._plain = plain
         self._listener = Listener((HOST, 0), authkey=bytes.fromhex(self._key), backlog=max(16, len(self._shares)))
-        name = f"shoal/{secrets.token_hex(4)}"
-        self._places = [f"tcp/{HOST}:{port}" for port in _free_ports(len(self._shares) + 1)]
-        self.mesh: Mesh = ZenohMesh(name, "sea", listen=self._places[-1])
         self._welcome = {
             "fleet": name,
             "nodes": len(self._shares) + 1,
@@ -200,10 +200,28 @@ class Processes:
                     facts += [said.facts] if isinstance(said, Note) else []
         return facts
 
+    def last_words(self) -> list[str]:
+        """What processes said that ended by an error of their own, a sentence each.
+
+        Raises
+        ------
+        FleetError : nobody is left, and all ended so: what the first said
+        """
+        found = []
+        for tied in self.gone:
+            said, fix = self.words(tied.ids)
+            if said and self._started[tied.ids].wait() > 0:
+                if not self.tied:
+                    raise FleetError(f"buoy {tied.ids[0]}", said, fix or "correct it")
+                found.append(f"buoy {', '.join(map(str, tied.ids))} ended: {said}")
+        return found
+
     def _lose(self, tied: Tied) -> list[int]:
         if tied in self.tied:
             self.tied.remove(tied)
             self.gone.append(tied)
+            if not self.tied:
+                self.last_words()
         return list(tied.ids)
 
     def _start(self, file: Path, ids: tuple[int, ...]) -> "subprocess.Popen[bytes]":

@@ -108,7 +108,8 @@ def run_fleet(
                 raise
             notes.append(f"interrupted after {log.steps:,} of {scenario.steps:,} steps")
         facts = crowd.finish() if isinstance(crowd, Processes) else []
-        notes = [*notes, *_lost(log.lost), *(sea.notes() if sea else ()), *_measured(facts, by_clock)]
+        words = crowd.last_words() if isinstance(crowd, Processes) else []
+        notes = [*notes, *_lost(log.lost), *words, *(sea.notes() if sea else ()), *_measured(facts, by_clock)]
     return log.record(notes, None if out is None else Path(out))
 
 
