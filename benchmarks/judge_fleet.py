@@ -9,8 +9,8 @@ import argparse
 import sys
 import time
 
-from shoal.fleet.run_fleet import Terms, run_fleet
 from shoal.record.frames import trajectory_sha256
+from shoal.run.fleet.run_fleet import Terms, run_fleet
 from shoal.run.simulate import simulate
 from shoal.scenario.load import load
 from shoal.strategies import CATALOGUE

@@ -89,8 +89,8 @@ def fleet(
         Print one JSON object and nothing else.
     """
     load_compiler()
-    from shoal.fleet.run_fleet import Terms, run_fleet
     from shoal.run.compiling import BUOYS
+    from shoal.run.fleet.run_fleet import Terms, run_fleet
     from shoal.scenario.load import scenario_from
 
     changes: dict[str, Any] = {

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from shoal.buoy.tether import Commands, Tick
 from shoal.core.errors import FleetError
 from shoal.core.text import quoted
-from shoal.fleet.lockstep import Crowd
-from shoal.fleet.processes import Processes
+from shoal.run.fleet.lockstep import Crowd
+from shoal.run.fleet.processes import Processes
 
 
 def kills_of(texts: Iterable[str], agents: int) -> dict[int, list[int]]:

@@ -8,8 +8,8 @@ import pytest
 
 from fleets import differences
 from scenarios import small
-from shoal.fleet.processes import Processes
-from shoal.fleet.run_fleet import Terms, run_fleet
+from shoal.run.fleet.processes import Processes
+from shoal.run.fleet.run_fleet import Terms, run_fleet
 
 pytest.importorskip("zenoh", reason="the extra fleet is not installed")
 TWO = Terms(processes=2, lockstep=True, plain=True)

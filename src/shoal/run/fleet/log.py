@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from shoal.fleet.ocean import Ocean
 from shoal.record.files import open_record, save_record
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.run.facts import facts_of
+from shoal.run.fleet.ocean import Ocean
 from shoal.run.simulate import provenance
 from shoal.scenario.crew import crew_of
 from shoal.scenario.schema import Loss, Scenario

@@ -10,16 +10,16 @@ from pathlib import Path
 from typing import Any
 
 from shoal.core.errors import FleetError
-from shoal.fleet.kills import Killing, kills_of
-from shoal.fleet.lockstep import Crowd, run_in_lockstep
-from shoal.fleet.log import Log
-from shoal.fleet.memory import InMemory
-from shoal.fleet.ocean import Ocean
-from shoal.fleet.paced import PacedSea, percentile
-from shoal.fleet.processes import Processes
 from shoal.record.files import RecordFolder
 from shoal.record.record import Record
 from shoal.run.compiling import BUOYS, mark_compiled
+from shoal.run.fleet.kills import Killing, kills_of
+from shoal.run.fleet.lockstep import Crowd, run_in_lockstep
+from shoal.run.fleet.log import Log
+from shoal.run.fleet.memory import InMemory
+from shoal.run.fleet.ocean import Ocean
+from shoal.run.fleet.paced import PacedSea, percentile
+from shoal.run.fleet.processes import Processes
 from shoal.scenario.load import Source, load
 
 MESHES = ("zenoh", "memory")

@@ -7,10 +7,10 @@ from multiprocessing.connection import wait
 import numpy as np
 
 from shoal.buoy.tether import BEGIN, Commands, Note
-from shoal.fleet.kills import Killing
-from shoal.fleet.log import Log
-from shoal.fleet.ocean import Ocean
-from shoal.fleet.processes import Processes, Tied
+from shoal.run.fleet.kills import Killing
+from shoal.run.fleet.log import Log
+from shoal.run.fleet.ocean import Ocean
+from shoal.run.fleet.processes import Processes, Tied
 
 SILENT = 1.0  # seconds of the run without a command after which a body stops
 PINGS = 9  # of which the fastest tells how far clocks are apart

@@ -5,8 +5,8 @@ from collections.abc import Callable
 from typing import Protocol
 
 from shoal.buoy.tether import BEGIN, Commands, Tick
-from shoal.fleet.log import Log
-from shoal.fleet.ocean import Ocean
+from shoal.run.fleet.log import Log
+from shoal.run.fleet.ocean import Ocean
 
 
 class Crowd(Protocol):

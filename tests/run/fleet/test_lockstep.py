@@ -6,9 +6,9 @@ import pytest
 from fleets import differences
 from scenarios import scenario
 from shoal.core.errors import FleetError, ScenarioError, StrategyError
-from shoal.fleet.kills import kills_of
-from shoal.fleet.run_fleet import Terms, run_fleet
 from shoal.record.files import open_record
+from shoal.run.fleet.kills import kills_of
+from shoal.run.fleet.run_fleet import Terms, run_fleet
 
 MEMORY = Terms(mesh="memory")
 TEAM = [
@@ -78,7 +78,7 @@ def test_an_interrupt_before_anything_was_done_keeps_nothing(tmp_path, monkeypat
     def interrupt(self, tick):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("shoal.fleet.memory.InMemory.ask", interrupt)
+    monkeypatch.setattr("shoal.run.fleet.memory.InMemory.ask", interrupt)
     with pytest.raises(KeyboardInterrupt):
         run_fleet(scenario(), MEMORY, out=tmp_path / "kept")
     assert list(tmp_path.iterdir()) == []
@@ -124,7 +124,7 @@ class TestErrors:
 
 
 def test_what_is_wanted_beyond_the_limits_is_not_done():
-    from shoal.fleet.ocean import Ocean
+    from shoal.run.fleet.ocean import Ocean
 
     ocean = Ocean(scenario())
     wants = np.array([[1e9, 0.0], [np.nan, 0.0], [0.0, -np.inf]])
