@@ -39,18 +39,18 @@ class Ocean:
         crew = crew_of(scenario)
         check_buoys_can(scenario, crew)
         network = scenario.network
+        self.simulation = Simulation(scenario, run, crew=crew.puppets())
         self.ideal = not (
             network.range
             or network.loss
             or network.delay
             or scenario.report_steps > 1
             or scenario.disturbances
-            or (scenario.sea and "land" in scenario.sea.files)
+            or self.simulation.world.coastal
         )
         if not self.ideal and scenario.agents > MOST_LINKED:
             problem = f"has limited radios and {scenario.agents} agents, but whom each hears is known of {MOST_LINKED}"
             raise ScenarioError(scenario.name, problem, f"take {MOST_LINKED} agents at most, or radios without limits")
-        self.simulation = Simulation(scenario, run, crew=crew.puppets())
         self._agents = scenario.agents
         self.leaves = self.simulation.swarm.leaves[: scenario.agents].copy()
 
