@@ -32,7 +32,17 @@ RADIO = {"neighbors": 12, "range": 7.0, "loss": 0.2, "delay": 2, "interval": 0.3
         {"disturbances": [{"kind": "current", "east": 0.5}, {"kind": "blackout", "since": 2.0, "until": 4.0}]},
         {"sea": {"coast": [[[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]]]}},  # hides from radios of any range
     ],
-    ids="as-it-is all-hear-all printed-speeds poor-radios adaptive-k team changes disturbed land".split(),
+    ids=[
+        "as-it-is",
+        "all-hear-all",
+        "printed-speeds",
+        "poor-radios",
+        "adaptive-k",
+        "team",
+        "changes",
+        "disturbed",
+        "land",
+    ],
 )
 def test_a_fleet_is_the_simulator(changes):
     assert differences(run_fleet(scenario("oceans2020", {"steps": 80, **changes}), MEMORY)) == []
