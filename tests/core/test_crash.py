@@ -3,6 +3,8 @@
 import faulthandler
 import math
 import multiprocessing
+import subprocess
+import sys
 import threading
 import time
 
@@ -64,3 +66,23 @@ def test_where_no_process_can_be_had_nothing_is_tried(monkeypatch):
     monkeypatch.setattr(crash.subprocess, "run", no_more)
     monkeypatch.setattr(multiprocessing, "get_all_start_methods", lambda: ["spawn"])
     assert is_safe(math.sqrt, 1.0)
+
+
+def test_all_of_it_where_the_process_can_fork():
+    """Threads that other tests left behind in this one make it skip those that fork."""
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-q",
+        "-p",
+        "no:xdist",
+        "-p",
+        "no:cacheprovider",
+        __file__,
+        "-k",
+        "[fork]",
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout
+    assert "6 passed" in done.stdout
