@@ -2,9 +2,10 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+MINUTES ?= 60
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
-.PHONY: demo test test-fast lint bench arena notebook web clean help
+.PHONY: demo test test-fast lint bench arena soak notebook web clean help
 
 help:
 	@echo "make demo      run the paper's scenario: table, figure and record in demo-output/"
@@ -13,6 +14,7 @@ help:
 	@echo "make lint      ruff, mypy, import-linter"
 	@echo "make bench     speed of the engine beside its anchor and plain NumPy"
 	@echo "make arena     the leaderboard of docs/reference/arena.md anew, about ten minutes"
+	@echo "make soak      a fleet under a seeded adversary for MINUTES=60; ends with the seed of the first failure"
 	@echo "make notebook  the notebook of the docs anew, as results change"
 	@echo "make web       the viewer's page from its sources (needs npm; users do not)"
 	@echo "make clean     remove the environment and everything made"
@@ -47,6 +49,9 @@ bench: $(VENV)/.installed
 
 arena: $(VENV)/.installed
 	$(BIN)/shoal compare --suite arena --out arena-output --markdown docs/reference/arena.md
+
+soak: $(VENV)/.installed
+	$(BIN)/python benchmarks/soak.py --minutes $(MINUTES)
 
 notebook: $(VENV)/.installed
 	$(BIN)/python -m pip install --quiet nbconvert ipykernel

@@ -1,0 +1,143 @@
+"""Deliberate breaks of what a fleet runs on, each in a piece of one line, for tests/run/fleet/test_soak.py."""
+
+from shoal.buoy.aboard import Aboard
+from shoal.buoy.buoy import Buoy
+from shoal.buoy.compiled import CompiledMind
+from shoal.buoy.inbox import Inbox
+from shoal.core import messages
+from shoal.run.fleet.log import Log
+from shoal.run.fleet.ocean import Ocean
+from shoal.run.fleet.paced import PacedSea
+from shoal.run.fleet.vessel import Vessel
+
+# Who is broken, in which piece of its source, what stands there instead, and words of the invariant that must see it.
+MUTANTS = {
+    "the age rule is a step longer": (Inbox, "newest", "step - max_age)", "step - max_age - 1)", "too old"),
+    "the age rule is a step shorter": (Inbox, "newest", "step - max_age)", "step - max_age + 1)", "k nearest"),
+    "reports of the next step are heard": (Inbox, "newest", "step + 1)", "step + 2)", "from the future"),
+    "the oldest report is heard": (Inbox, "newest", "found |= self.of(then)", "found = self.of(then) | found", "said"),
+    "duplicates are new": (
+        Inbox,
+        "put",
+        "elif report.id in self._said.setdefault(step, {}):",
+        "elif self._said.setdefault(step, {}) is None:",
+        "counted",
+    ),
+    "a duplicate is not counted": (Inbox, "put", 'self.counts["duplicate"] += 1', "pass", "counted"),
+    "late reports are taken": (Inbox, "put", "elif step < max(0, now - self._kept):", "elif step < 0:", "counted"),
+    "reports are late a step too soon": (Inbox, "put", "now - self._kept)", "now - self._kept + 1)", "counted"),
+    "early reports are taken": (Inbox, "put", "now + AHEAD", "now + 1_000", "counted"),
+    "strangers are taken": (Inbox, "put", "report.id >= self._agents or", "", "raises an error"),
+    "times between steps are taken": (Inbox, "put", "abs(steps - round(steps)) > 1e-3", "False", "counted"),
+    "times before the start are taken": (Inbox, "put", "not 0.0 <= steps", "not -1e9 <= steps", "counted"),
+    "who is reordered is forgotten": (Inbox, "put", "max(step, self._last.get(report.id, 0))", "step", "counted"),
+    "an inbox keeps everything": (Inbox, "forget", "step < now - self._kept", "step < 0", "stays small"),
+    "an inbox forgets too much": (Inbox, "forget", "step < now - self._kept", "step <= now - 1", "counted"),
+    "damaged reports are read": (messages, "unpack", "!= zlib.crc32(body)", "is None", "counted"),
+    "numbers that are none are read": (messages, "unpack", "_check_finite(read, numbers)", "pass", "not finite"),
+    "a buoy hears itself": (Buoy, "_heard", "report.id != self.id and", "", "itself"),
+    "one more than k is heard": (Buoy, "_heard", "[: self.neighbors]", "[: self.neighbors + 1]", "at most k"),
+    "one less than k is heard": (Buoy, "_heard", "[: self.neighbors]", "[: self.neighbors - 1]", "k nearest"),
+    "the farthest are heard": (Buoy, "_heard", "(_square(me, other),", "(-_square(me, other),", "k nearest"),
+    "the first by id are heard": (Buoy, "_heard", "(_square(me, other), other.id)", "other.id", "k nearest"),
+    "a buoy reports where it will be": (Buoy, "report", "float(x)", "float(x + vx)", "say what instruments"),
+    "a buoy reports in halves": (Buoy, "report", "float(vy)", "float(vy / 2)", "say what instruments"),
+    "a buoy is a step behind in its reports": (Buoy, "report", "time = step", "time = (step - 1)", "say when"),
+    "a buoy decides a step behind": (
+        Buoy,
+        "decide",
+        "self._mind.decide(me, heard, step)",
+        "self._mind.decide(me, heard, step - 1)",
+        "its own clock",
+    ),
+    "a buoy wants what is no number": (
+        Buoy,
+        "decide",
+        "vx, vy = self._mind.decide(me, heard, step)",
+        "vx, vy = 0.0, self._mind.decide(me, heard, step)[1]",
+        "commands are decisions",
+    ),
+    "the dead are heard": (Aboard, "act", "if tick.alive[id]", "", "k nearest"),
+    "limited radios hear all": (Aboard, "act", "if tick.hears is None", "if True", "k nearest"),
+    "one buoy is silent": (Aboard, "speak", "in tick.readings:", "in tick.readings[1:]:", "every buoy speaks"),
+    "buoys speak between reports": (Aboard, "speak", "if tick.step % self._interval:", "if False:", "between reports"),
+    "one buoy does not decide": (Aboard, "act", "buoy.decide(", "number and buoy.decide(", "every buoy decides"),
+    "wants are those of others": (Aboard, "act", "tick, wants)", "tick, wants[::-1])", "commands are decisions"),
+    "what is delayed is heard at once": (Aboard, "spoken", "step - self._delay", "step", "from the future"),
+    "bodies forget a command": (
+        Ocean,
+        "obey",
+        "ids[sound], :2] = wants[sound]",
+        "ids[sound][1:], :2] = wants[sound][1:]",
+        "decided last",
+    ),
+    "top speeds are forgotten": (
+        Ocean,
+        "tick",
+        "everybody = self",
+        "self.simulation._swarm.max_speed[:] = 9.0; everybody = self",
+        "faster",
+    ),
+    "walls are forgotten": (
+        Ocean,
+        "tick",
+        "everybody = self",
+        "self.simulation.world = self.simulation.world._replace(clamp_x=99.0, clamp_y=99.0); everybody = self",
+        "arena",
+    ),
+    "instruments are those of others": (
+        Ocean,
+        "readings",
+        "= swarm.fix_x[: self._agents],",
+        "= swarm.fix_x[: self._agents][::-1],",
+        "say what is so",
+    ),
+    "the killed stay": (Ocean, "lose", "now.swarm.leaves[lost] = self.number", "pass", "lost are gone"),
+    "the silent go on": (PacedSea, "_stop_the_silent", "if ids.size:", "if False:", "silent stop"),
+    "the silent go on for a second more": (
+        PacedSea,
+        "_stop_the_silent",
+        "> self._quiet)",
+        "> 2 * self._quiet)",
+        "silent stop",
+    ),
+    "the silent are not noted": (PacedSea, "_stop_the_silent", "self._log.notes.append(", "str(", "every silence"),
+    "the log skips steps": (
+        Log,
+        "keep",
+        "self._frames.append",
+        "len(self._wants) % 9 and self._frames.append",
+        "every step",
+    ),
+    "the log has another place": (Log, "keep", "memory=memory)", "memory=memory, x=frame.x + 1e-12)", "every frame"),
+    "the log forgets who is lost": (Log, "lose", "self.lost +=", "_ =", "every loss"),
+    "a restart keeps the inbox": (
+        Vessel,
+        "start",
+        "self.aboard = Aboard(",
+        "self.aboard = getattr(self, 'aboard', None) or Aboard(",
+        "counted",
+    ),
+    "a restart forgets what was": (Buoy, "restore", "self._mind.recall(memory)", "pass", "goes on from what was"),
+    "the log remembers for others": (
+        Log,
+        "remember",
+        "self._memory[ids] =",
+        "self._memory[ids[::-1]] =",
+        "every memory",
+    ),
+    "buoys say that everybody is on target": (Buoy, "report", "bool(on_target)", "True", "say what instruments"),
+    "nobody is there for instruments": (
+        Ocean,
+        "tick",
+        "alive = self.alive",
+        "alive = self.alive & (self.number < 50)",
+        "who is there",
+    ),
+}
+
+# What a mind makes of what it hears has no second opinion here: tests/run/fleet/test_lockstep.py has the simulator's.
+SURVIVORS = {
+    "x and y are mixed up": (CompiledMind, "decide", "(each.x, each.y,", "(each.y, each.x,"),
+    "the chance of another step is drawn": (CompiledMind, "decide", "self._key, step)", "self._key, step + 1)"),
+}

@@ -1,0 +1,112 @@
+"""A fleet under a seeded adversary: nothing that must be true is broken, and whoever breaks the runtime is caught."""
+
+import inspect
+import textwrap
+from collections import Counter
+from functools import cache
+
+import pytest
+import soak as benchmark
+
+from mutants import MUTANTS, SURVIVORS
+from scenarios import small
+from shoal.buoy.inbox import Inbox
+from shoal.core.messages import Report
+from shoal.run.fleet.adversary import Adversary
+from shoal.run.fleet.soak import Outcome, Setting, soak
+
+FLEET = small(16, 5)
+STEPS = 250
+SEEDS = (53, 51)  # perfect radios, and ones that reach not far, late and now and then
+
+
+def changed(function, old, new):
+    """A function like this one, of which a piece of the source is another."""
+    text = textwrap.dedent(inspect.getsource(function))
+    assert text.count(old) == 1, f"{old!r} is {text.count(old)} times in {function.__qualname__}"
+    space = {}
+    exec(text.replace(old, new), {**function.__globals__}, space)
+    return space[function.__name__]
+
+
+def soaked_with(monkeypatch, place, name, old, new):
+    """How the first seed ends in which this mutant breaks an invariant, or the last."""
+    monkeypatch.setattr(place, name, changed(getattr(place, name), old, new))
+    outcomes = (soak(seed, FLEET, STEPS) for seed in SEEDS)
+    return next((outcome for outcome in outcomes if outcome.broken), None)
+
+
+@pytest.mark.parametrize("mutant", MUTANTS)
+def test_mutants_are_caught(mutant, monkeypatch):
+    *broken, word = MUTANTS[mutant]
+    outcome = soaked_with(monkeypatch, *broken)
+    assert outcome is not None
+    assert word in outcome.broken
+
+
+@cache
+def unbroken(seed):
+    """What comes of a seed where nobody broke anything."""
+    return soak(seed, FLEET, STEPS)
+
+
+@pytest.mark.parametrize("mutant", SURVIVORS)
+def test_survivors_are_known(mutant, monkeypatch):
+    assert soaked_with(monkeypatch, *SURVIVORS[mutant]) is None
+
+
+class TestSeeds:
+    """A seed decides every bit, and no invariant is broken."""
+
+    def test_nothing_is_broken_whatever_happens(self):
+        outcomes = [unbroken(seed) for seed in SEEDS]
+        assert [each.broken for each in outcomes] == [None, None]
+        kinds = {event.split()[1] for each in outcomes for event in each.events}
+        assert kinds == {"kill", "freeze", "restart", "clock", "mend"}
+        assert all(each.steps == STEPS and each.decisions > 8 * STEPS for each in outcomes)
+
+    def test_the_same_seed_is_the_same_to_the_bit(self):
+        assert soak(SEEDS[1], FLEET, STEPS) == unbroken(SEEDS[1])
+        assert unbroken(SEEDS[0]).sha256 != unbroken(SEEDS[1]).sha256
+
+    def test_seeds_differ_in_their_rules(self):
+        settings = [Setting.of(seed, FLEET, 10) for seed in range(80)]
+        assert {each.max_age for each in settings} == {0, 1, 2, 3}
+        assert {len(each.shares) for each in settings} == {3, 4, 5, 6, 7, 8}
+        assert {each.scenario.network.delay for each in settings} == {0, 1, 2}
+        assert {each.scenario.report_steps for each in settings} == {1, 2, 3}
+
+
+def test_all_damage_is_seen():
+    adversary = Adversary(1, 2, 16)
+    inbox = Inbox(16, (), 0.1, 3)
+    for step in range(300):
+        report = Report(3, 1.0, 2.0, 3.0, 4.0, True, (), step * 0.1)
+        inbox.put(adversary.damage(report.to_bytes()), step)
+    assert inbox.counts == {"damaged": 300}
+
+
+def test_noise_is_thought_of_as_it_must_be():
+    adversary = Adversary(1, 2, 16)
+    inbox, words = Inbox(16, (), 0.1, 3), Counter()
+    for step in range(300):
+        data, word = adversary.noise(step, 0.1, ())
+        words[word] += 1
+        inbox.put(data, step)
+    assert inbox.counts == words
+
+
+class TestCommandLine:
+    """make soak."""
+
+    @pytest.mark.parametrize(("broken", "code"), [(None, 0), ("nobody hears itself: buoy 3 in step 4", 1)])
+    def test_a_seed_again(self, broken, code, monkeypatch, capsys):
+        outcome = Outcome(17, 5, 250, 240, broken, "abc", ["3 kill 1 0"])
+        monkeypatch.setattr(benchmark, "soak", lambda seed, steps: outcome)
+        monkeypatch.setattr("sys.argv", ["soak.py", "--seed", "17", "--steps", "9"])
+        with pytest.raises(SystemExit) as ended:
+            benchmark.main()
+        printed = capsys.readouterr().out
+        assert ended.value.code == code
+        assert "3 kill 1 0" in printed
+        assert ("replay: python benchmarks/soak.py --seed 17 --steps 9" in printed) == bool(code)
