@@ -187,7 +187,9 @@ class Buoy:
         for report in inbox:
             if report.id != self.id and (report.id not in newest or report.time >= newest[report.id].time):
                 newest[report.id] = report
-        nearest = sorted(newest.values(), key=lambda other: (_square(me, other), other.id))[: self.neighbors]
+        x, y = me.x, me.y
+        far = [((x - it.x) * (x - it.x) + (y - it.y) * (y - it.y), id) for id, it in newest.items()]
+        nearest = [newest[id] for _, id in sorted(far)[: self.neighbors]]
         if self._crew.ranked:
             nearest = [report._replace(rank=rank) for rank, report in enumerate(nearest)]
         return sorted(nearest, key=lambda report: report.id)
@@ -208,12 +210,6 @@ class Buoy:
             vx, vy = _maneuvered(me.vx, me.vy, vx, vy, turn, change)
         scale = _speed_scale(vx, vy, make.max_speed, self._divide)
         return vx * scale, vy * scale
-
-
-def _square(me: Own, other: Report) -> float:
-    dx = me.x - other.x
-    dy = me.y - other.y
-    return dx * dx + dy * dy
 
 
 def _mind_of(crew: Crew, seed: int, run: int) -> Any:

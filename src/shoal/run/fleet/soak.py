@@ -137,8 +137,7 @@ class Soak:
             self._watch.note(commands, now)
         self._sea._stop_the_silent()
         self._watch.check_before(now, self._ocean, self._log)
-        frame = self._ocean.simulation.look()  # the frame that Ocean.advance returns, which takes 3 ms for it
-        self._ocean.simulation.advance(1)
+        frame = self._ocean.advance()
         self._log.keep(frame)
         for commands in answers:
             self._log.remember(commands.ids, commands.memory)
