@@ -75,6 +75,12 @@ def refusal(folder, text, name="my_strategy.py"):
 class TestLoading:
     """A file becomes a strategy of a scenario."""
 
+    @pytest.mark.parametrize("name", ["team", "puppet"])
+    def test_may_be_called_as_what_we_make_of_strategies_ourselves(self, tmp_path, name):
+        chosen = using(written(tmp_path, DRIFTER.replace('"drifter"', f'"{name}"')))
+        assert chosen.strategy.name == name
+        assert scenario_from(chosen.model_dump(mode="json")) == chosen
+
     def test_with_its_name_its_parameters_and_its_source(self, tmp_path):
         choice = using(written(tmp_path)).strategy
         assert choice.name == "drifter"

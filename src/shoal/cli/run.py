@@ -1,6 +1,5 @@
 """shoal run: one scenario, R runs, a table of results."""
 
-import json
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -8,7 +7,6 @@ from cyclopts import Parameter
 
 from shoal.cli.numbers import Integer, MaybeInteger, MaybeSteps
 from shoal.cli.options import check_most, edited_table
-from shoal.cli.output import write
 from shoal.cli.places import check_places
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler, tell_of_compiling
@@ -102,7 +100,9 @@ def run(
     if out:
         note(f"record: {out} (shoal show {out})")
     if json_:
-        write(json.dumps(record.summary()) + "\n")
+        from shoal.cli.summary import print_json
+
+        print_json(record)
     else:
         from shoal.cli.table import print_record
 

@@ -1,13 +1,11 @@
 """shoal show: the table and the figure of a saved record."""
 
-import json
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
 from shoal.cli.older import opened
-from shoal.cli.output import write
 from shoal.cli.progress import note
 
 
@@ -37,11 +35,9 @@ def show(
         check_figure(figure)
     known = opened(record)
     if json_:
-        from shoal.record.frames import trajectory_sha256
+        from shoal.cli.summary import print_json
 
-        first = known.trajectories.get(0)
-        sha256 = None if first is None else trajectory_sha256(first, known.scenario.steps)
-        write(json.dumps({**known.summary(), "trajectory_sha256": sha256}) + "\n")
+        print_json(known)
     else:
         print_record(known)
     if figure:
