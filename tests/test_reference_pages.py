@@ -11,7 +11,8 @@ from shoal.metrics.summary import METRICS
 from shoal.run.simulation import Simulation
 from shoal.scenario.disturbances import DISTURBANCES
 from shoal.scenario.load import load, read_table, scenario_from
-from shoal.scenario.schema import AdaptiveDegree, Fleet, Join, Loss, Network
+from shoal.scenario.presence import Join, Loss
+from shoal.scenario.schema import AdaptiveDegree, Fleet, Network
 from shoal.scenario.targets import TARGETS
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -24,6 +24,7 @@ from shoal.scenario.choices import headline
 from shoal.scenario.disturbances import Disturbance
 from shoal.scenario.durations import Steps, with_whole_steps
 from shoal.scenario.frozen import MOST_ENTRIES, Chance, Count, Frozen, Name, NotNegative, Positive
+from shoal.scenario.presence import MOST_AGENTS, Join, Loss
 from shoal.scenario.radios import RADIOS
 from shoal.scenario.scales import scales_of
 from shoal.scenario.sea import Sea
@@ -31,7 +32,6 @@ from shoal.scenario.strategy_choice import StrategyChoice
 from shoal.scenario.targets import MovingTarget, Target
 from shoal.scenario.windage import Windage
 
-MOST_AGENTS = 10_000  # the engine keeps all squared distances: 800 MB
 ARENA_UNITS = 20.0  # the paper's arena measures 20 units; one is the length its figures are in
 
 
@@ -148,45 +148,6 @@ class AdaptiveDegree(Frozen):
         if self.fewest > self.most:
             raise ValueError(f"fewest is {self.fewest}, more than most, {self.most}; swap them")
         return self
-
-
-class Loss(Frozen):
-    """Agents that are lost at a step, chosen at random or named."""
-
-    step: Count = Field(description="they are absent from this step on")
-    count: Count | None = Field(default=None, description="number of agents, chosen at random; or")
-    agents: tuple[Annotated[int, Field(strict=True, ge=0)], ...] = Field(
-        default=(), max_length=MOST_AGENTS, description="which agents, by their numbers from 0 in the order of fleets"
-    )
-    fleet: str | None = Field(default=None, description="of which fleet; default: of any")
-
-    @property
-    def size(self) -> int:
-        """Number of agents."""
-        return len(self.agents) or self.count or 0
-
-    @model_validator(mode="after")
-    def _who(self) -> Self:
-        if (self.count is None) == (not self.agents):
-            raise ValueError("a loss has a count, or agents that it names; say one of them")
-        if self.agents and self.fleet is not None:
-            raise ValueError("a loss that names its agents has no fleet; leave out fleet, or say count")
-        if len(set(self.agents)) < len(self.agents):
-            raise ValueError("agents names one twice; leave out one of them")
-        return self
-
-
-class Join(Frozen):
-    """Agents that join at a step."""
-
-    step: Count = Field(description="they are there from this step on")
-    count: Count = Field(description="number of agents")
-    fleet: str = Field(description="of which fleet they are")
-
-    @property
-    def size(self) -> int:
-        """Number of agents."""
-        return self.count
 
 
 class Network(Frozen):

@@ -16,7 +16,8 @@ from shoal.run.facts import facts_of
 from shoal.run.fleet.ocean import Ocean
 from shoal.run.simulate import provenance
 from shoal.scenario.crew import crew_of
-from shoal.scenario.schema import Loss, Scenario
+from shoal.scenario.presence import Loss
+from shoal.scenario.schema import Scenario
 
 
 class Log:
