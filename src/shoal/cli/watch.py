@@ -164,13 +164,14 @@ def _record(session: "Session", out: Path) -> None:
 def _play_record(folder: str, host: str, port: int, browser: bool) -> None:
     from threading import Event
 
+    from shoal.core.waiting import wait_for
     from shoal.viewer.replay import replay_page
     from shoal.viewer.server import page_app, serving
 
     page = replay_page(opened(folder))
     with suppress(KeyboardInterrupt), serving(page_app(page), host, port) as address:
         _announce(address, host, browser)
-        Event().wait()
+        wait_for(Event())
 
 
 def _other(table: dict[str, Any], against: str) -> dict[str, Any]:

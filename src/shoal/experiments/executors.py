@@ -3,10 +3,11 @@
 import os
 import threading
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any, cast
 
 from shoal.core.errors import MissingExtraError, ScenarioError
+from shoal.core.waiting import first_done
 from shoal.experiments.cells import Cell
 from shoal.experiments.replicate import Row, Stopped, failed_row, replicate, replicate_table
 
@@ -30,7 +31,7 @@ def in_threads(jobs: int | None = None) -> Executor:
                         pending[pool.submit(replicate, task[0].scenario, task[1], stop)] = task
                     if not pending:
                         return
-                    for future in wait(pending, return_when=FIRST_COMPLETED).done:
+                    for future in first_done(pending):
                         yield (*pending.pop(future), future.result())
             except Stopped:
                 return

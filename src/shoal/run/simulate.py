@@ -5,7 +5,7 @@ import platform
 import threading
 import time
 from collections.abc import Callable
-from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import nullcontext
 from datetime import UTC, datetime
 from pathlib import Path
@@ -16,6 +16,7 @@ import numpy as np
 
 from shoal.core.errors import ScenarioError
 from shoal.core.version import RESULTS_VERSION, VERSION
+from shoal.core.waiting import first_done
 from shoal.metrics.tally import Tally
 from shoal.record.files import RecordFolder
 from shoal.record.record import Record
@@ -137,9 +138,12 @@ def _run_all(
     with ThreadPoolExecutor(min(runs, jobs)) as pool:
         tasks = [pool.submit(one, run) for run in range(runs)]
         try:
-            finished = wait(tasks, return_when=FIRST_EXCEPTION).done
-            for task in finished:
-                task.result()  # raises what ended it, without waiting for the others
+            waiting = set(tasks)
+            while waiting:
+                finished = first_done(waiting)
+                waiting -= finished
+                for task in finished:
+                    task.result()  # raises what ended it, without waiting for the others
             return [task.result() for task in tasks]
         except BaseException:
             stop.set()  # every thread ends at its next chunk

@@ -8,6 +8,7 @@ from queue import Empty, Full, Queue
 from typing import NamedTuple
 
 from shoal.core.errors import ShoalError
+from shoal.core.waiting import wait_for
 from shoal.viewer.requests import Request
 from shoal.viewer.ring import Kept
 from shoal.viewer.session import Session
@@ -75,7 +76,7 @@ class Worker:
 
     def wait(self) -> None:
         """Wait until the thread ends; raise what ended it."""
-        self._ended.wait()
+        wait_for(self._ended)
         if self._error:
             raise self._error
 
