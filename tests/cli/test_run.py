@@ -305,13 +305,6 @@ class TestTracks:
 
 
 class TestProcess:
-    def test_help_loads_no_compiler(self):
-        script = (
-            "import sys; from shoal.cli.main import run_command; run_command(['--help']); print('numba' in sys.modules)"
-        )
-        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-        assert done.stdout.splitlines()[-1] == "False"
-
     def test_ctrl_c_exits_with_130_and_leaves_nothing(self, tmp_path):
         process = subprocess.Popen(
             [sys.executable, "-m", "shoal", "run", "oceans2020", "--steps", "50000000", "--out", str(tmp_path / "r")],

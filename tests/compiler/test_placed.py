@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from scenarios import small
-from shoal.compiler.kernel import compiles
+from shoal.compiler.late import compiles
 from shoal.compiler.placed import Placed
 from shoal.run.simulation import Simulation
 

@@ -14,8 +14,8 @@ from shoal.core.errors import RecordError
 from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.cells import base_table, make_cells
 from shoal.experiments.design import Design, grid
-from shoal.experiments.replicate import failed_row
 from shoal.experiments.results import aggregate, read_rows, to_csv
+from shoal.experiments.rows import failed_row
 from shoal.experiments.store import Store
 from shoal.experiments.sweep import sweep
 from shoal.metrics.summary import METRICS

@@ -114,7 +114,7 @@ def test_interrupted_it_keeps_what_is_done_and_goes_on_from_there(tmp_path):
 
 def test_failed_runs_are_tried_again(tmp_path, monkeypatch):
     from shoal.experiments import executors
-    from shoal.experiments.replicate import failed_row
+    from shoal.experiments.rows import failed_row
 
     with monkeypatch.context() as broken:
         broken.setattr(executors, "replicate", lambda scenario, run, stop: failed_row("out of luck"))

@@ -5,7 +5,8 @@ from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 from shoal.buoy.plain import NO_TRUTH, PlainMind
-from shoal.compiler.kernel import compiles, plain
+from shoal.compiler.kernel import plain
+from shoal.compiler.late import compiles
 from shoal.core.errors import MessageError, StrategyError
 from shoal.core.messages import Own, Reading, Report
 from shoal.scenario.briefing import briefing, degrees, fleet_of

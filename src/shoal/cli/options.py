@@ -1,13 +1,10 @@
-"""From command-line options to a scenario's raw table."""
+"""From command-line options to a scenario's raw table; its parts are imported when they are used, not for a help."""
 
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from shoal.core.errors import ScenarioError
-from shoal.scenario.change import change
-from shoal.scenario.edit import parse_assignment, parse_value, refuse_contradictions
-from shoal.scenario.load import read_table
 
 _MOST = {"runs": 1_000_000, "max_runs": 1_000_000, "jobs": 1024}
 
@@ -16,6 +13,10 @@ def edited_table(
     source: str, changes: Mapping[str, Any], assignments: Sequence[str], track: str | None, track_id: str | None
 ) -> dict[str, Any]:
     """Return the table of a preset or file changed by options, a track and assignments, which win over options."""
+    from shoal.scenario.change import change
+    from shoal.scenario.edit import parse_assignment, parse_value
+    from shoal.scenario.load import read_table
+
     if track_id and not track:
         raise ScenarioError("--track-id", "needs --target-track", "name the file that holds the track")
     table = read_table(source)
@@ -32,6 +33,8 @@ def edited_table(
 
 def given_changes(assignments: Sequence[str] | None, **options: Any) -> dict[str, Any]:
     """Return the changes that --set asks for, and over them those options that are given."""
+    from shoal.scenario.edit import parse_assignment
+
     changes: dict[str, Any] = dict(map(parse_assignment, assignments or []))
     return changes | {name: value for name, value in options.items() if value is not None}
 
@@ -44,6 +47,9 @@ def as_options(option: str, texts: Sequence[str]) -> list[tuple[str, str]]:
 
 def check_asked(source: str | dict[str, Any], asked: Sequence[tuple[str, str]]) -> None:
     """Refuse two options that set the same field of a scenario, by whatever names."""
+    from shoal.scenario.edit import refuse_contradictions
+    from shoal.scenario.load import read_table
+
     refuse_contradictions(read_table(source) if isinstance(source, str) else source, asked)
 
 

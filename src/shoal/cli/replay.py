@@ -30,11 +30,8 @@ def replay(
     part
         all: spread evenly over the whole run; end: the last steps, every one of them as far as they were kept.
     """
-    load_compiler()
     from shoal.core.errors import ScenarioError
     from shoal.core.files import check_file, write_atomic
-    from shoal.run.simulate import simulate
-    from shoal.scenario.load import load
     from shoal.viewer.replay import replay_page
 
     if frames < 1:
@@ -43,6 +40,10 @@ def replay(
     if Path(source).is_dir():
         record = opened(source)
     else:
+        load_compiler()
+        from shoal.run.simulate import simulate
+        from shoal.scenario.load import load
+
         scenario = load(source)
         every = max(1, -(-scenario.steps // frames)) if part == "all" else None
         with progress_bar(f"{scenario.name}, {scenario.steps:,} steps") as progress:

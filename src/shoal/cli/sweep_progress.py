@@ -5,17 +5,20 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rich.live import Live
 from rich.text import Text
 
 from shoal.cli.console import progress_console
 from shoal.cli.progress import SECONDS_BETWEEN_LINES, note
-from shoal.experiments.sweep import Progress
+
+if TYPE_CHECKING:
+    from shoal.experiments.sweep import Progress
 
 
 @contextmanager
-def sweep_progress(store: Path | None) -> Iterator[Callable[[Progress], None]]:
+def sweep_progress(store: Path | None) -> Iterator[Callable[["Progress"], None]]:
     """Yield a function to call after every run; say what an interrupt leaves in the store, if it is to stay."""
     try:
         with _reporter() as report:
@@ -27,7 +30,7 @@ def sweep_progress(store: Path | None) -> Iterator[Callable[[Progress], None]]:
 
 
 @contextmanager
-def _reporter() -> Iterator[Callable[[Progress], None]]:
+def _reporter() -> Iterator[Callable[["Progress"], None]]:
     """One living line on a terminal, a line now and then in a log."""
     console = progress_console()
     if console.is_terminal:
@@ -36,7 +39,7 @@ def _reporter() -> Iterator[Callable[[Progress], None]]:
         return
     last = 0.0
 
-    def report(progress: Progress) -> None:
+    def report(progress: "Progress") -> None:
         nonlocal last
         if time.monotonic() - last >= SECONDS_BETWEEN_LINES:
             last = time.monotonic()
@@ -45,7 +48,7 @@ def _reporter() -> Iterator[Callable[[Progress], None]]:
     yield report
 
 
-def describe(progress: Progress) -> str:
+def describe(progress: "Progress") -> str:
     """One line: how far, how fast, how long."""
     done = progress.before + progress.done
     left = "?" if math.isinf(progress.seconds_left) else _clock(progress.seconds_left)

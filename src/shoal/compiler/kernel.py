@@ -15,8 +15,6 @@ import hashlib
 import os
 import shutil
 import tempfile
-import threading
-import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache
@@ -24,37 +22,11 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from shoal.compiler.installed import offered_sources
+from shoal.compiler.late import ONE_AT_A_TIME, Kernel, compiles, is_installed, load, when_loaded
 from shoal.compiler.private import make_private
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-try:
-    import numba
-    from numba import extending
-    from numba.core import config
-    from numba.core.errors import NumbaError as NumbaError
-    from numba.core.errors import NumbaExperimentalFeatureWarning
-    from numba.core.errors import TypingError as TypingError
-
-    from shoal.compiler.inlined import InlinedCompiler
-    from shoal.compiler.inner import FLAGS, INNER_FLAGS, Inner
-    from shoal.compiler.interrupts import wait_for_the_compiler
-
-    # Fleets with strategies of their own share memory records, which numba passes by their first fields and warns of.
-    warnings.filterwarnings("ignore", message="Record", category=NumbaExperimentalFeatureWarning)
-    wait_for_the_compiler()
-except ModuleNotFoundError as missing:
-    if missing.name != "numba":
-        raise
-    numba = config = None  # type: ignore[assignment]
-
-    class NumbaError(Exception):  # type: ignore[no-redef]
-        """What nobody raises without numba."""
-
-    TypingError = NumbaError  # type: ignore[misc, assignment]
-
-_ONE_AT_A_TIME = threading.RLock()
-_config: Any = config  # its settings come from the environment at run time
 _COMPILED_FOLDERS = ("compiler", "core", "world", "strategies", "metrics", "engine")
 
 
@@ -62,17 +34,26 @@ def kernel(function: Function) -> Function:
     """Compile a function that other kernels call; it is compiled into them and not cached by itself."""
     if hasattr(function, "py_func") or not compiles():
         return function  # compiled already, or never
-    return cast(
-        Function, Inner(function, targetoptions={"nopython": True, **INNER_FLAGS}, pipeline_class=InlinedCompiler)
-    )
+    return cast(Function, Kernel(function, _inner))
 
 
 def entry_kernel(function: Function) -> Function:
     """Compile a function that Python calls, and keep the machine code on disk for the next process."""
-    if numba is None:
-        return function
+    return cast(Function, Kernel(function, _entry)) if is_installed() else function
+
+
+def _inner(function: Callable[..., Any]) -> Any:
+    from shoal.compiler.inlined import InlinedCompiler
+    from shoal.compiler.inner import INNER_FLAGS, Inner
+
+    return Inner(function, targetoptions={"nopython": True, **INNER_FLAGS}, pipeline_class=InlinedCompiler)
+
+
+def _entry(function: Callable[..., Any]) -> Any:
+    from shoal.compiler.inner import FLAGS
+
     with kernel_cache():
-        return cast(Function, numba.njit(function, cache=True, **FLAGS))
+        return load().njit(function, cache=True, **FLAGS)
 
 
 @contextmanager
@@ -82,18 +63,14 @@ def kernel_cache() -> Iterator[None]:
     One thread at a time: numba reads its setting twice, and where another thread had left in between, it would keep
     compiled code in, and run it from, whatever folder the process is in.
     """
-    with _ONE_AT_A_TIME:
-        outside = _config.CACHE_DIR
-        _config.CACHE_DIR = str(cache_folder())
+    with ONE_AT_A_TIME:
+        settings = load().config
+        outside = settings.CACHE_DIR
+        settings.CACHE_DIR = str(cache_folder())
         try:
             yield
         finally:
-            _config.CACHE_DIR = outside
-
-
-def compiles() -> bool:
-    """Whether kernels are compiled: not without numba, and not under NUMBA_DISABLE_JIT=1."""
-    return numba is not None and not _config.DISABLE_JIT
+            settings.CACHE_DIR = outside
 
 
 def plain(function: Function) -> Function:
@@ -103,17 +80,26 @@ def plain(function: Function) -> Function:
 
 def overload(function: Callable[..., Any], **options: Any) -> Callable[[Function], Function]:
     """Say what a function is in kernels: numba's decorator of the same name, if there is a compiler."""
-    if numba is None:
-        return lambda implementation: implementation
-    decorator: Any = extending.overload(function, **options)
-    return cast(Callable[[Function], Function], decorator)
+
+    def say(implementation: Function) -> Function:
+        if is_installed():
+            when_loaded(lambda numba: numba.extending.overload(function, **options)(implementation))
+        return implementation
+
+    return say
 
 
 def uncached(entry: Function) -> Function:
     """Return a twin of an entry kernel that never touches the cache: for strategies whose source we do not hash."""
     if not compiles():
         return entry
-    return cast(Function, numba.njit(entry.py_func, **FLAGS))  # type: ignore[attr-defined]
+    return cast(Function, Kernel(plain(entry), _own))
+
+
+def _own(function: Callable[..., Any]) -> Any:
+    from shoal.compiler.inner import FLAGS
+
+    return load().njit(function, **FLAGS)
 
 
 @cache
@@ -154,7 +140,7 @@ def _shared_folder() -> Path:
 @cache
 def sources_hash() -> str:
     """First 16 hex digits of a hash over every kernel source, installed packages' too, and the compiler's version."""
-    digest = hashlib.sha256(numba.__version__.encode())
+    digest = hashlib.sha256(load().__version__.encode())
     root = Path(__file__).parent.parent
     for name in _COMPILED_FOLDERS:
         for source in sorted((root / name).rglob("*.py")):

@@ -20,7 +20,8 @@ from numba import cfunc, types
 from numba.extending import intrinsic, overload
 
 from shoal.compiler.inner import FLAGS
-from shoal.compiler.kernel import compiles, kernel_cache
+from shoal.compiler.kernel import kernel_cache
+from shoal.compiler.late import compiles
 
 _SIGNATURE = types.int64(types.int64, types.int64, types.int64, types.int64, types.uint64)
 

@@ -33,7 +33,7 @@ from numba.core import cgutils
 from numba.core.registry import cpu_target
 from numba.extending import lower_builtin, type_callable
 
-from shoal.compiler.kernel import compiles
+from shoal.compiler.late import compiles
 
 _MODEL: list[Callable[[], Any]] = []  # makes a stage, however small, of the type that all have
 

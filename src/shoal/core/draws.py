@@ -7,7 +7,8 @@ OOPSLA 2014), applied once per level: run, step, agent, purpose.
 
 import math
 
-from shoal.compiler.kernel import compiles, kernel
+from shoal.compiler.kernel import kernel
+from shoal.compiler.late import compiles
 
 _ALL = 0xFFFFFFFFFFFFFFFF  # 64 bits: what machine words keep by themselves, and Python's integers do not
 

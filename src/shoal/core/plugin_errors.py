@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from shoal.compiler.installed import offers, package_in, package_of
-from shoal.compiler.kernel import NumbaError
+from shoal.compiler.late import compiler_errors
 from shoal.compiler.reason import reason_in
 from shoal.core.errors import PluginError
 
@@ -19,7 +19,7 @@ def plugin_errors() -> Iterator[None]:
     """
     try:
         yield
-    except NumbaError as error:
+    except compiler_errors() as error:
         package = package_in(str(error)) or _any_package()
         if not package:
             raise

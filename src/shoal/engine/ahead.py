@@ -11,7 +11,8 @@ import time
 from collections.abc import Sequence
 from typing import Any
 
-from shoal.compiler.kernel import cache_folder, compiles, why_uncached
+from shoal.compiler.kernel import cache_folder, why_uncached
+from shoal.compiler.late import compiles
 from shoal.compiler.phase import Phase
 
 _BUSY = "compiling-ahead"  # in the cache, while such a process runs

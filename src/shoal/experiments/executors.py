@@ -9,7 +9,8 @@ from typing import Any, cast
 from shoal.core.errors import MissingExtraError, ScenarioError
 from shoal.core.waiting import first_done
 from shoal.experiments.cells import Cell
-from shoal.experiments.replicate import Row, Stopped, failed_row, replicate, replicate_table
+from shoal.experiments.replicate import Stopped, replicate, replicate_table
+from shoal.experiments.rows import Row, failed_row
 
 Task = tuple[Cell, int]
 Done = tuple[Cell, int, Row]

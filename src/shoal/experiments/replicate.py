@@ -2,10 +2,10 @@
 
 import threading
 import time
-from datetime import UTC, datetime
 from typing import Any
 
 from shoal.core.errors import ShoalError
+from shoal.experiments.rows import Row, failed_row, now
 from shoal.metrics.heading_bearing import fleet_stationary, phi_histogram
 from shoal.metrics.summary import METRICS
 from shoal.metrics.velocity_fluctuation import fleet_fluctuation
@@ -14,9 +14,6 @@ from shoal.run.simulate import chunk_steps
 from shoal.run.simulation import Simulation
 from shoal.scenario.load import scenario_from
 from shoal.scenario.schema import Scenario
-
-Row = dict[str, Any]
-LIST_COLUMNS = ("phi_histogram", "fleet_phi_histogram", "fleet_xi_raw", "fleet_stationary")
 
 
 class Stopped(Exception):  # noqa: N818  (an event, not an error)
@@ -28,7 +25,7 @@ def replicate(scenario: Scenario, run: int, stop: threading.Event | None = None)
 
     A run that fails is a row with its error; only `stop` raises (Stopped).
     """
-    begun, started = time.perf_counter(), _now()
+    begun, started = time.perf_counter(), now()
     try:
         numbers = _numbers(scenario, run, stop)
     except Stopped:
@@ -36,16 +33,6 @@ def replicate(scenario: Scenario, run: int, stop: threading.Event | None = None)
     except Exception as failure:  # whatever a user's strategy does, the night's work goes on
         return failed_row(str(failure) if isinstance(failure, ShoalError) else repr(failure), started)
     return {"status": "done", "error": "", **numbers, "started": started, "seconds": time.perf_counter() - begun}
-
-
-def failed_row(error: str, started: str = "") -> Row:
-    """The row of a run that gave no numbers."""
-    numbers = dict.fromkeys((*METRICS, *LIST_COLUMNS))
-    return {"status": "failed", "error": error, **numbers, "started": started or _now(), "seconds": 0.0}
-
-
-def _now() -> str:
-    return datetime.now(UTC).isoformat(timespec="milliseconds")
 
 
 def replicate_table(table: dict[str, Any], run: int) -> Row:

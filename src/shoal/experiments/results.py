@@ -10,7 +10,7 @@ from typing import Any
 from shoal.core.errors import MissingExtraError, ScenarioError
 from shoal.core.files import MARK, write_atomic
 from shoal.core.version import VERSION
-from shoal.experiments.replicate import LIST_COLUMNS, Row
+from shoal.experiments.rows import LIST_COLUMNS, Row
 from shoal.experiments.store import Store
 from shoal.metrics.summary import METRICS, bounds_of
 from shoal.record.statistics import estimate

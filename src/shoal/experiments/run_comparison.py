@@ -13,8 +13,8 @@ from shoal.experiments.comparison import Values
 from shoal.experiments.contenders import Contender
 from shoal.experiments.design import Design, Point, grid
 from shoal.experiments.executors import Executor
-from shoal.experiments.replicate import Row
 from shoal.experiments.results import seal
+from shoal.experiments.rows import Row
 from shoal.experiments.sweep import Progress, sweep
 from shoal.scenario.load import Source
 

@@ -20,7 +20,7 @@ from shoal.core.errors import RecordError, reason_of
 from shoal.core.files import OwnFolder
 from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.experiments.cells import Cell
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.experiments.store_rows import (
     IDENTITY,
     SCHEMA,

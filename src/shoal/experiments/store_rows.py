@@ -19,7 +19,7 @@ from typing import Any, Self
 from shoal.core.errors import RecordError
 from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.experiments.cells import Cell
-from shoal.experiments.replicate import LIST_COLUMNS, Row
+from shoal.experiments.rows import LIST_COLUMNS, Row
 from shoal.metrics.summary import METRICS
 
 FORMAT = 3

@@ -15,7 +15,7 @@ from shoal.experiments.comparison import Values
 from shoal.experiments.contenders import Contender
 from shoal.experiments.design import Point
 from shoal.experiments.executors import Executor
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.experiments.run_comparison import comparison_design, run_comparison, values_of
 from shoal.experiments.sweep import Progress
 

@@ -12,7 +12,8 @@ from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.cells import Cell, base_table, make_cells
 from shoal.experiments.design import Design, Point
 from shoal.experiments.executors import Done, Executor, Task, in_threads
-from shoal.experiments.replicate import Row, replicate
+from shoal.experiments.replicate import replicate
+from shoal.experiments.rows import Row
 from shoal.experiments.store import Store
 from shoal.metrics.summary import bounds_of
 from shoal.record.statistics import all_alike, estimate

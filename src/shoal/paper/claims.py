@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.cases import (
     Case,
     Truth,

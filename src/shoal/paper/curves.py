@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.metrics.heading_bearing import CENTERS
 from shoal.metrics.summary import ANYTHING, METRICS, Bounds, bounds_of
 from shoal.paper.peaks import tops

@@ -7,7 +7,7 @@ import numpy as np
 
 from shoal.drawing.legend import headroom
 from shoal.drawing.style import FLEET_COLORS, INK, new_figure, style
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.figures_peaks import PeakMark, peak_of
 from shoal.paper.figures_series import (
     ALL_SLOW,

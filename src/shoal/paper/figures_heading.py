@@ -4,7 +4,7 @@ import math
 from typing import TYPE_CHECKING
 
 from shoal.drawing.style import FLEET_COLORS, GRAY, INK, TARGET, new_figure, style
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.results import Figure
 
 if TYPE_CHECKING:

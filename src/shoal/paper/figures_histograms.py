@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from shoal.drawing.histogram import draw_phi_bars, label_phi
 from shoal.drawing.style import INK, new_figure, style
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.metrics.heading_bearing import CENTERS
 from shoal.metrics.summary import Bounds
 from shoal.paper.curves import intervals

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.cases import told_number
 from shoal.paper.curves import Interval, curve, peak
 from shoal.paper.figures_series import Quantity

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shoal.drawing.style import FLEET_COLORS, GRAY, TARGET, new_figure, style
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.figures_series import (
     DOUBLE,
     RESPONSE,

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from shoal.drawing.style import FLEET_COLORS, new_figure, style
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.figures_peaks import peak_of
 from shoal.paper.figures_series import (
     ALL_SLOW,

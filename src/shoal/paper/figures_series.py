@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shoal.drawing.curves import Curve, draw_curve
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.metrics.summary import Bounds
 from shoal.paper.curves import FEW, intervals
 from shoal.paper.plan import AGENTS

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from shoal.drawing.style import FLEET_COLORS, new_figure, style
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.curves import curve, intervals, values_of
 from shoal.paper.figures_series import DOUBLE
 from shoal.paper.plan import MIXED

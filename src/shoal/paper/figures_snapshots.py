@@ -7,7 +7,7 @@ import numpy as np
 from shoal.drawing.snapshot import draw_snapshot
 from shoal.drawing.style import FLEET_COLORS, GRAY, INK, new_figure, style
 from shoal.drawing.words import count
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.figures_series import DOUBLE
 from shoal.paper.results import Figure
 from shoal.paper.snapshots import Clustering, Locked, find_clustering, find_locked

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from itertools import permutations
 
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.results import Claim
 from shoal.paper.statements import Verdicts, statements_of, verdict_on
 

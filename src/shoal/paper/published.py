@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.cases import Case, case_text, count, verdict_of
 from shoal.paper.curves import Floats, Interval, curve, intervals
 from shoal.paper.results import Claim

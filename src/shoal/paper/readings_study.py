@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.clusters import Episode, watch_clusters
 from shoal.paper.frontier import frontier_table
 from shoal.paper.plan import QUICK_STEPS, SPEEDS, Group, Plan

@@ -12,7 +12,7 @@ from pathlib import Path
 from shoal.core.errors import RecordError
 from shoal.core.files import write_atomic
 from shoal.drawing.files import save_figure
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.report_page import Picture, page
 from shoal.paper.results import Claim, Figure, Reproduction
 

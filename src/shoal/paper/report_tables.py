@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.report_words import COLUMNS, METRICS
 from shoal.paper.results import Claim
 

@@ -14,7 +14,7 @@ import numpy as np
 from shoal.core.errors import RecordError, ScenarioError
 from shoal.core.files import check_folder, write_atomic
 from shoal.core.version import RESULTS_VERSION, VERSION
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.claims import oceans_claims
 from shoal.paper.clusters import watch_clusters
 from shoal.paper.plan import (

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 
 Verdict = Literal["holds", "holds partly", "does not hold", "undecided"]
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from shoal.experiments.cells import make_cells
 from shoal.experiments.executors import in_threads
-from shoal.experiments.replicate import Row
 from shoal.experiments.results import seal
+from shoal.experiments.rows import Row
 from shoal.experiments.sweep import Progress, sweep
 from shoal.paper.plan import Plan
 

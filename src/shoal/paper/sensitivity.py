@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.claims import SWARMS, c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11, c12, c13
 from shoal.paper.clusters import Episode
 from shoal.paper.curves import Interval, curve, peak, values_of

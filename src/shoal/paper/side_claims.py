@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper.cases import (
     Case,
     case_text,

@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.paper import claims as judges
 from shoal.paper.clusters import Episode
 from shoal.paper.curves import values_of

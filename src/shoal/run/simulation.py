@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from shoal.compiler.kernel import compiles
+from shoal.compiler.late import compiles
 from shoal.compiler.placed import Placed
 from shoal.core.agents import NEVER, Memories, as_records
 from shoal.core.errors import ScenarioError, StrategyError

@@ -16,7 +16,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Required, TypedDict, Unpack
 
-from shoal.compiler.kernel import TypingError, kernel, overload
+from shoal.compiler.kernel import kernel, overload
+from shoal.compiler.late import load
 from shoal.core.errors import StrategyError, did_you_mean
 from shoal.core.keywords import lists_keywords
 from shoal.core.messages import Heard
@@ -348,7 +349,7 @@ def _counted(values, params):
     count = getattr(values, "count", 1)  # a tuple has one
     if owner.name != TEAM:
         if problem := _miscounted(owner, count):
-            raise TypingError(f"{problem}; {_COUNT_THEM}")
+            raise load().core.errors.TypingError(f"{problem}; {_COUNT_THEM}")
         return (lambda values, params: values) if hasattr(values, "count") else (lambda values, params: (values,))
     zeros = (0.0,) * (_width(params.types, params.instance_class) - count)
     return lambda values, params: values + zeros

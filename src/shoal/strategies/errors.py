@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
-from shoal.compiler.kernel import NumbaError
+from shoal.compiler.late import compiler_errors
 from shoal.compiler.reason import reason_in
 from shoal.core.errors import StrategyError
 from shoal.strategies.contract import Strategy
@@ -30,7 +30,7 @@ def strategy_errors(strategies: Sequence[Strategy]) -> Iterator[None]:
     name, source = "+".join(dict.fromkeys(each.name for each in own)), own[0].source
     try:
         yield
-    except NumbaError as error:
+    except compiler_errors() as error:
         raise _uncompiled(name, source, str(error)) from error
     except Exception as error:
         line = line_in(error.__traceback__, source)

@@ -22,7 +22,7 @@ from shoal.experiments.comparison_words import (
 from shoal.experiments.compiled_first import compiled_first
 from shoal.experiments.contenders import contenders, with_parameters
 from shoal.experiments.executors import Executor, in_threads
-from shoal.experiments.replicate import Row
+from shoal.experiments.rows import Row
 from shoal.experiments.run_comparison import comparison_design, run_comparison, values_of
 from shoal.experiments.sweep import Progress
 from shoal.metrics.summary import METRICS, bounds_of

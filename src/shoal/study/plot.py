@@ -32,8 +32,8 @@ from shoal.drawing.summary import summary_figure
 from shoal.drawing.sweep import draw_sweep, sweep_page
 from shoal.drawing.trajectory_map import draw_trajectory_map
 from shoal.drawing.words import field_words
-from shoal.experiments.replicate import Row
 from shoal.experiments.results import aggregate, default_x, varied_rows
+from shoal.experiments.rows import Row
 from shoal.metrics.summary import METRICS
 from shoal.record.files import open_record
 from shoal.record.record import Record

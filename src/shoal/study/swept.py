@@ -10,8 +10,8 @@ from shoal.core.keywords import lists_keywords, split_keywords
 from shoal.core.sheet import Sheet
 from shoal.experiments.design import Design, grid, together
 from shoal.experiments.executors import in_threads
-from shoal.experiments.replicate import Row
 from shoal.experiments.results import aggregate, seal
+from shoal.experiments.rows import Row
 from shoal.experiments.sweep import Stop
 from shoal.experiments.sweep import sweep as run_sweep
 from shoal.record.words import spread_text

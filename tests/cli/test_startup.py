@@ -1,0 +1,34 @@
+"""Who prints a help, lists or reads does not wait for the compiler."""
+
+import subprocess
+import sys
+
+from scenarios import scenario
+from shoal.cli.main import app
+from shoal.run.simulate import simulate
+
+SCRIPT = """
+import sys
+from shoal.cli.main import run_command
+
+for tokens in {commands!r}:
+    assert run_command(tokens) == 0, tokens
+    assert "numba" not in sys.modules, tokens
+"""
+
+
+def test_without_the_compiler(tmp_path):
+    simulate(scenario(changes={"steps": 50}), out=tmp_path / "r")
+    verbs = [name for name in app if not name.startswith("-")]
+    assert len(verbs) > 15
+    commands = [
+        ["--help"],
+        *([verb, "--help"] for verb in verbs),
+        ["presets"],
+        ["strategies"],
+        ["schema"],
+        ["scenario", "bay"],
+        ["show", str(tmp_path / "r")],
+        ["show", str(tmp_path / "r"), "--json"],
+    ]
+    subprocess.run([sys.executable, "-c", SCRIPT.format(commands=commands)], check=True, stdout=subprocess.DEVNULL)
