@@ -9,6 +9,7 @@ import { Numbers, type RunNumbers } from "./numbers";
 import { readTheme, type Theme } from "./palette";
 import { attachPointer } from "./pointer";
 import type { Failure, Frame, Hello, Past, Request, Scene, Status } from "./protocol";
+import { Roll } from "./roll";
 import type { Listener, Source } from "./source";
 import { Stage } from "./stage";
 import { SwarmControls, TOOLS } from "./swarm";
@@ -28,6 +29,7 @@ export class App implements Listener {
   private runs: RunNumbers[] = [];
   private numbers!: Numbers;
   private swarm: SwarmControls | null = null;
+  private roll: Roll | null = null; // of a fleet
   private readonly switches = new Switches(() => this.refresh());
   private readonly transport = new Transport(
     (request) => this.send(request),
@@ -64,13 +66,15 @@ export class App implements Listener {
     this.stages = letters.map((letter, run) => new Stage(run, letter, (each) => this.source.tape(each)));
     this.runs = letters.map(() => ({ history: new History(), scene: null, frame: null, since: 0, marks: [] }));
     this.numbers = new Numbers(letters);
-    this.swarm = this.source.live ? new SwarmControls(hello, letters, (request) => this.send(request), () => this.showTool()) : null;
+    document.body.dataset.of = hello.fleet ? "fleet" : "swarm";
+    this.roll = hello.fleet ? new Roll() : null;
+    this.swarm = this.source.live && !hello.fleet ? new SwarmControls(hello, letters, (request) => this.send(request), () => this.showTool()) : null;
     byId("stages").replaceChildren(...this.stages.map((stage) => stage.root));
-    byId("side").replaceChildren(this.numbers.root, el("div", { class: "controls" }, this.swarm ? this.swarm.root : this.numbers.table, this.switches.root));
+    byId("side").replaceChildren(this.numbers.root, el("div", { class: "controls" }, (this.swarm ?? this.roll)?.root ?? this.numbers.table, this.switches.root));
     this.transport.offer(hello.speeds);
     this.transport.restart.disabled = hello.recording;
     const mode = byId("mode");
-    mode.textContent = this.source.live ? (hello.recording ? "recording" : "live") : "replay";
+    mode.textContent = !this.source.live ? "replay" : hello.fleet ? "fleet" : hello.recording ? "recording" : "live";
     mode.dataset.mode = mode.textContent;
     for (const stage of this.stages) {
       attachPointer(stage, {
@@ -142,7 +146,7 @@ export class App implements Listener {
     this.status_ = this.status_ && { ...this.status_, playing: false };
     if (this.status_) this.transport.update(this.status_, this.stages[0]?.newest?.time_step ?? 0);
     byId("banner").hidden = false;
-    byId("banner-words").textContent = `${reason} Is shoal watch still running?`;
+    byId("banner-words").textContent = `${reason} Is ${this.hello_?.fleet ? "the fleet" : "shoal watch"} still running?`;
     byId("mode").textContent = "not connected";
     byId("mode").dataset.mode = "lost";
     this.showBusy(null);
@@ -172,6 +176,7 @@ export class App implements Listener {
       this.counted = now;
       this.uncounted = false;
       for (const stage of this.stages) stage.describe(this.status_?.playing ?? false);
+      if (this.runs[0].frame) this.roll?.call(this.runs[0].frame);
       const newest = Math.max(...this.runs.map(({ frame }) => frame?.step ?? 0));
       this.numbers.draw(this.theme, this.runs, this.status_?.last ?? newest);
     }
@@ -272,9 +277,14 @@ export class App implements Listener {
           key("ArrowRight", "a step forward", () => transport.stepBy(1), "→"),
           key("Home", "oldest step that is kept", () => transport.toFirst(), "Home"),
           key("End", "newest step", () => transport.toNewest(), "End"),
+        ],
+      },
+      {
+        title: "Pace",
+        keys: [
           key("[", "slower", () => transport.changeSpeed(-1)),
           key("]", "faster", () => transport.changeSpeed(1)),
-          key("r", "restart", () => transport.restart.click()),
+          key("r", "restart", () => { if (!transport.restart.hidden) transport.restart.click(); }),
         ],
       },
       {

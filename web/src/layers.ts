@@ -5,7 +5,7 @@ import { fastestFleet, styleOf } from "./fleets";
 import { fixed } from "./format";
 import type { Pairs } from "./links";
 import { fleetColor, fleetMarker, TARGET_COLOR, traceMarker, type Theme } from "./palette";
-import { isAlive, isOnTarget, isPresent, type Frame, type Scene } from "./protocol";
+import { isAlive, isOnTarget, isPresent, isSilent, type Frame, type Scene } from "./protocol";
 
 /** One moment to draw: a frame, with positions that may lie between it and the one before. */
 export interface Moment {
@@ -190,7 +190,7 @@ export function drawAgents({ context, camera, theme }: Brush, { scene, frame, x,
     for (const onTarget of [false, true]) {
       context.beginPath();
       for (let agent = begin; agent < end; agent++) {
-        if (!isAlive(frame, agent) || isOnTarget(frame, agent) !== onTarget) continue;
+        if (!isAlive(frame, agent) || isSilent(frame, agent) || isOnTarget(frame, agent) !== onTarget) continue;
         traceMarker(context, marker, camera.toX(x[agent]), camera.toY(y[agent]), radius * (onTarget ? 1.2 : 1));
       }
       context.fill();
@@ -199,6 +199,16 @@ export function drawAgents({ context, camera, theme }: Brush, { scene, frame, x,
       context.lineJoin = "miter";
       context.stroke();
     }
+    context.beginPath();
+    for (let agent = begin; agent < end; agent++) {
+      if (!isAlive(frame, agent) || !isSilent(frame, agent)) continue;
+      traceMarker(context, marker, camera.toX(x[agent]), camera.toY(y[agent]), radius);
+    }
+    context.fillStyle = theme.water;
+    context.fill();
+    context.strokeStyle = fleetColor(styleOf(scene.fleets[fleet]));
+    context.lineWidth = Math.max(1.4, size / 4);
+    context.stroke();
   });
   drawGone({ context, camera, theme }, frame, x, y, Math.max(size * 0.7, 2.5));
 }

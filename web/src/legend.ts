@@ -10,6 +10,8 @@ export class Legend {
   readonly root = el("ul", { class: "legend", "aria-label": "Legend" });
   private readonly gone = el("li", { hidden: true });
   private readonly goneText = document.createTextNode("");
+  private readonly silent = el("li", { hidden: true });
+  private readonly silentText = document.createTextNode("");
 
   describe(scene: Scene): void {
     this.root.replaceChildren();
@@ -22,13 +24,16 @@ export class Legend {
       this.add(glyph("target", TARGET_COLOR, disc, svg("path", { d: "M-3 0H3M0-3V3", stroke: "currentColor" })), words);
     }
     this.gone.replaceChildren(glyph("gone", "currentColor", svg("path", { d: "M-4-4L4 4M-4 4L4-4" })), this.goneText);
-    this.root.append(this.gone);
+    this.silent.replaceChildren(glyph("hollow", "currentColor", svg("circle", { r: 4.5 })), this.silentText);
+    this.root.append(this.gone, this.silent);
   }
 
-  /** Agents that are gone, or have not joined yet. */
-  note(gone: number): void {
+  /** Agents that are gone, or have not joined yet; and those that are there and say nothing. */
+  note(gone: number, silent: number): void {
     this.gone.hidden = gone === 0;
     this.goneText.data = `${count(gone)} not there`;
+    this.silent.hidden = silent === 0;
+    this.silentText.data = `${count(silent)} silent`;
   }
 
   private add(picture: SVGElement, words: string): void {

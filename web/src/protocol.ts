@@ -60,6 +60,7 @@ export interface Hello {
   type: "hello";
   runs: number;
   recording: boolean;
+  fleet?: boolean; // real buoys: they can be watched, not changed
   speeds: number[];
   strategies: StrategyChoice[];
 }
@@ -67,7 +68,7 @@ export interface Hello {
 export interface Status {
   type: "status";
   playing: boolean;
-  speed: number; // times real time
+  speed: number | null; // times real time; null: as it goes
   step: number;
   first: number;
   last: number;
@@ -139,9 +140,11 @@ const VERSION = 2;
 const HEAD = 84; // bytes before the agents
 const ON_TARGET = 1;
 const ALIVE = 2;
+const SILENT = 4;
 
 export const isOnTarget = (frame: Frame, agent: number): boolean => (frame.flags[agent] & ON_TARGET) !== 0;
 export const isAlive = (frame: Frame, agent: number): boolean => (frame.flags[agent] & ALIVE) !== 0;
+export const isSilent = (frame: Frame, agent: number): boolean => (frame.flags[agent] & SILENT) !== 0;
 export const isPresent = (frame: Frame, target: number): boolean => (frame.present[target] & 1) !== 0;
 
 export class ProtocolError extends Error {}

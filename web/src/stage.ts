@@ -7,7 +7,7 @@ import * as layers from "./layers";
 import { Legend } from "./legend";
 import { heardBy, linkedPairs, type Pairs } from "./links";
 import type { Theme } from "./palette";
-import { isAlive, isOnTarget, isPresent, type Frame, type Scene } from "./protocol";
+import { isAlive, isOnTarget, isPresent, isSilent, type Frame, type Scene } from "./protocol";
 import type { Tape } from "./tape";
 
 /** What is drawn besides agents and targets. */
@@ -106,7 +106,7 @@ export class Stage {
     const state = there ? `${fixed(frame.engaged, 0)} on target` : "no target is there";
     this.moment.textContent = `Step ${count(frame.step)} · ${time(frame.step * scene.time_step)} · ${state}`;
     const gone = frame.x.length - this.livingAgents();
-    this.legend.note(gone);
+    this.legend.note(gone, frame.x.reduce((sum, _, agent) => sum + Number(isAlive(frame, agent) && isSilent(frame, agent)), 0));
     if (playing) return; // a label that changes all the time is read out all the time
     const words = `${count(frame.x.length - gone)} buoys, ${state}`;
     this.canvas.setAttribute("aria-label", `Map of the swarm${this.letter && `, run ${this.letter}`}: ${words}`);
@@ -197,6 +197,7 @@ export class Stage {
     ];
     if (Number.isFinite(frame.repulsion[agent])) parts.push(`a_R ${fixed(frame.repulsion[agent], 3)} m`);
     if (isOnTarget(frame, agent)) parts.push("reports a target");
+    if (isSilent(frame, agent)) parts.push("says nothing");
     this.hint.textContent = parts.join(" · ");
   }
 

@@ -24,6 +24,9 @@ export class Transport {
   private readonly newest = button("newest", "To the newest step (End)");
   private readonly clock = el("output", { class: "clock" });
   private readonly times = el("output", { class: "times" });
+  private readonly pace = el(
+    "label", { class: "speed", title: "Speed, times real time ([ and ])" }, el("span", {}, "Speed"), this.speed, this.times,
+  );
   private speeds: number[] = [];
   private status: Status | null = null;
   private timeStep = 0; // [s]
@@ -37,7 +40,7 @@ export class Transport {
     this.root.append(
       el("div", { class: "buttons" }, this.restart, this.back, this.play, this.forward, this.newest),
       el("div", { class: "scrubbing" }, this.scrub, this.clock),
-      el("label", { class: "speed", title: "Speed, times real time ([ and ])" }, el("span", {}, "Speed"), this.speed, this.times),
+      this.pace,
     );
     this.restart.onclick = () => { this.send({ do: "restart" }); };
     this.back.onclick = () => { this.stepBy(-1); };
@@ -52,6 +55,8 @@ export class Transport {
   offer(speeds: number[]): void {
     this.speeds = speeds;
     this.speed.max = String(speeds.length - 1);
+    this.speed.hidden = this.restart.hidden = speeds.length === 0; // what runs by itself keeps its own time
+    this.pace.classList.toggle("told", speeds.length === 0);
   }
 
   update(status: Status, timeStep: number): void {
@@ -65,9 +70,10 @@ export class Transport {
     this.scrub.style.setProperty("--done", `${last > first ? (100 * (step - first)) / (last - first) : 100}%`);
     this.newest.disabled = status.at_end;
     this.back.disabled = step <= first;
-    const nearest = this.speeds.reduce((best, each, n) => (gap(each, status.speed) < gap(this.speeds[best], status.speed) ? n : best), 0);
+    const pace = status.speed ?? 1;
+    const nearest = this.speeds.reduce((best, each, n) => (gap(each, pace) < gap(this.speeds[best], pace) ? n : best), 0);
     if (document.activeElement !== this.speed || !this.speed.matches(":active")) this.speed.value = String(nearest);
-    this.times.textContent = `${status.speed}×`;
+    this.times.textContent = status.speed === null ? "as it goes" : `${status.speed}×`;
     this.speed.setAttribute("aria-valuetext", `${status.speed} times real time`);
     this.tell(step);
   }
@@ -91,6 +97,7 @@ export class Transport {
   }
 
   changeSpeed(by: number): void {
+    if (this.speeds.length === 0) return;
     const index = Math.min(Math.max(Number(this.speed.value) + by, 0), this.speeds.length - 1);
     this.speed.value = String(index);
     this.send({ do: "speed", value: this.speeds[index] });

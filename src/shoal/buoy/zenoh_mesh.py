@@ -41,17 +41,8 @@ class ZenohMesh:
         listen: str = "tcp/127.0.0.1:0",
         config: dict[str, Any] | None = None,
     ) -> None:
-        try:
-            import zenoh
-        except ModuleNotFoundError:
-            raise MissingExtraError.of("zenoh", "fleet", "a mesh between processes") from None
-        settings = zenoh.Config()
+        zenoh = _zenoh("a mesh between processes")
         wanted: dict[str, Any] = {
-            "mode": "peer",
-            "listen/endpoints": [listen],
-            "connect/endpoints": list(connect),
-            "scouting/multicast/enabled": False,
-            "scouting/gossip/enabled": False,
             "connect/timeout_ms": -1,  # try for ever
             "connect/exit_on_failure": False,
             "connect/retry": _RETRY,
@@ -62,9 +53,7 @@ class ZenohMesh:
         self._arrived: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         self._nodes: set[str] = set()
         try:
-            for path, value in wanted.items():
-                settings.insert_json5(path, json.dumps(value))
-            self._session = zenoh.open(settings)
+            self._session = zenoh.open(_settings([listen], connect, wanted))
             atexit.register(self.close)  # Python would wait for its threads for ever
             self._heard = self._session.declare_subscriber(f"{fleet}/reports", self._take_in)
             self._publisher = self._session.declare_publisher(
@@ -79,7 +68,7 @@ class ZenohMesh:
             self._token = self._session.liveliness().declare_token(f"{fleet}/alive/{node}")
         except zenoh.ZError as error:
             where = ", ".join([listen, *connect])
-            problem = f"cannot be a mesh: {' '.join(str(error).split())[:200]}"
+            problem = f"cannot be a mesh: {_words(error)}"
             raise FleetError(where, problem, "give addresses such as tcp/127.0.0.1:7447 that are free") from None
 
     def _take_in(self, sample: Any) -> None:
@@ -110,3 +99,61 @@ class ZenohMesh:
         atexit.unregister(self.close)
         if not self._session.is_closed():
             self._session.close()
+
+
+def open_peer(listen: Sequence[str], connect: Sequence[str], patience: float, purpose: str) -> Any:
+    """Open a session of a peer that is no node of a mesh: nobody waits for it, and it passes nothing on.
+
+    Parameters
+    ----------
+    listen, connect : addresses, such as tcp/127.0.0.1:7447
+    patience : time that the others have to answer [s]
+    purpose : what needs it, for the error of a missing library
+
+    Raises
+    ------
+    MissingExtraError : zenoh is not installed
+    OSError : it cannot listen there, or nobody answers
+    """
+    zenoh = _zenoh(purpose)
+    limit = round(1000 * patience)
+    wanted = {
+        "connect/timeout_ms": limit,
+        "connect/exit_on_failure": True,
+        "connect/retry": {**_RETRY, "period_max_ms": 500},
+        "transport/unicast/open_timeout": limit,
+    }
+    try:
+        session = zenoh.open(_settings(listen, connect, wanted))
+    except zenoh.ZError as error:
+        raise OSError(_words(error)) from None
+    atexit.register(session.close)  # Python would wait for its threads for ever
+    return session
+
+
+def _zenoh(purpose: str) -> Any:
+    try:
+        import zenoh
+    except ModuleNotFoundError:
+        raise MissingExtraError.of("zenoh", "fleet", purpose) from None
+    return zenoh
+
+
+def _settings(listen: Sequence[str], connect: Sequence[str], more: dict[str, Any]) -> Any:
+    """The configuration of a peer that finds nobody by itself."""
+    settings = _zenoh("").Config()
+    wanted: dict[str, Any] = {
+        "mode": "peer",
+        "listen/endpoints": list(listen),
+        "connect/endpoints": list(connect),
+        "scouting/multicast/enabled": False,
+        "scouting/gossip/enabled": False,
+        **more,
+    }
+    for path, value in wanted.items():
+        settings.insert_json5(path, json.dumps(value))
+    return settings
+
+
+def _words(error: Exception) -> str:
+    return " ".join(str(error).split())[:200]

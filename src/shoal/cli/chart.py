@@ -1,7 +1,7 @@
 """shoal chart: a run on chart plotters, by AIS over TCP."""
 
 from collections.abc import Callable, Iterator
-from contextlib import suppress
+from contextlib import closing, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -14,13 +14,15 @@ from shoal.cli.progress import note
 from shoal.cli.startup import load_compiler, tell_of_compiling
 
 if TYPE_CHECKING:
+    from shoal.viewer.broadcast import Broadcast
     from shoal.viewer.chart import Moment
 
 
 def chart(
-    source: str,
+    source: str | None = None,
     /,
     *,
+    fleet: str | None = None,
     tcp: Integer = 10110,
     host: str = "127.0.0.1",
     speed: Number = 1.0,
@@ -31,12 +33,14 @@ def chart(
 ) -> None:
     """Show a run on chart plotters as it goes: buoys and targets as AIS, over TCP. Ctrl-C ends it.
 
-    It begins when the first plotter connects, and ends with the run.
+    It begins when the first plotter connects, and ends with the run. A fleet is shown as it is, whoever is connected.
 
     Parameters
     ----------
     source
         A record (folder made by --out), which is replayed; or a preset's name or a TOML file, which is simulated.
+    fleet
+        Show a fleet that runs instead: HOST:PORT as `shoal fleet` says it. It is only listened to.
     tcp
         Port to serve at; 0 takes a free one.
     host
@@ -65,6 +69,16 @@ def chart(
     if run < 0:
         raise ScenarioError("--run", f"is {run}", "ask for 0 or more")
     place, now = None if origin is None else place_of(origin), datetime.now(UTC)
+    if fleet is not None:
+        if source is not None or run or loop or speed != 1.0:
+            problem, fix = "is shown as it runs", "leave out SOURCE, --run, --loop and --speed"
+            raise ScenarioError("--fleet", problem, fix)
+        _follow(fleet, place, every, (host, tcp))
+        return
+    if source is None:
+        raise ScenarioError(
+            "SOURCE", "is missing", "name a record, a scenario, or a fleet that runs (--fleet HOST:PORT)"
+        )
     if Path(source).is_dir():
         record = opened(source)
         scenario, facts = record.scenario, record.facts
@@ -87,23 +101,58 @@ def chart(
     _serve(begin, greeting(crafts_of(facts, len(scenario.targets))), (host, tcp), speed, loop)
 
 
+def _follow(fleet: str, place: tuple[float, float] | None, every: float, address: tuple[str, int]) -> None:
+    from shoal.buoy.address import host_and_port
+    from shoal.buoy.beacon import Lookout
+    from shoal.core.errors import ScenarioError
+    from shoal.core.geodesy import Frame
+    from shoal.record.voyage.voyages import crafts_of
+    from shoal.viewer.broadcast import Broadcast
+    from shoal.viewer.bulletin import bulletins
+    from shoal.viewer.chart import follow, greeting
+
+    with suppress(KeyboardInterrupt), closing(Lookout(*host_and_port(fleet, "--fleet"))) as lookout:
+        heard = bulletins(lookout, 0.05)
+        first = next(filter(None, heard), None)
+        if first is None:
+            raise ScenarioError("--fleet", "is gone already", "start it again")
+        origin = place or first.origin
+        if origin is None:
+            fix = "say where its center lies: --origin LON,LAT, such as --origin=-1.3,50.8"
+            raise ScenarioError("--fleet", "is of a scenario that has no place on Earth (area.origin)", fix)
+        hello = greeting(crafts_of(first.facts, len(first.scene["targets"])))
+        with Broadcast(*address, hello) as broadcast:
+            _tell_where(address[0], broadcast.port)
+            moments = follow(heard, broadcast, every, Frame(origin))
+            broadcast.finish()
+            _tell_what(moments, broadcast)
+
+
+def _tell_where(host: str, port: int) -> None:
+    from shoal.viewer.address import is_local, reachable
+
+    note(f"waiting for a chart plotter: AIS over TCP at {reachable(host)}:{port} (Ctrl-C ends)")
+    if not is_local(host):
+        note(f"anybody who can reach {host} can see this run")
+
+
+def _tell_what(moments: int, broadcast: "Broadcast") -> None:
+    missed = f"; {broadcast.missed:,} were missed by slow ones" if broadcast.missed else ""
+    note(f"chart: {moments:,} moments for {broadcast.met} plotter{'s' * (broadcast.met != 1)}{missed}")
+
+
 def _serve(
     begin: "Callable[[], Iterator[Moment]]", hello: bytes, address: tuple[str, int], speed: float, loop: bool
 ) -> None:
-    from shoal.viewer.address import is_local, reachable
     from shoal.viewer.broadcast import Broadcast
     from shoal.viewer.chart import play
 
-    host, port = address
-    with suppress(KeyboardInterrupt), Broadcast(host, port, hello) as broadcast:
-        note(f"waiting for a chart plotter: AIS over TCP at {reachable(host)}:{broadcast.port} (Ctrl-C ends)")
-        if not is_local(host):
-            note(f"anybody who can reach {host} can see this run")
+    with suppress(KeyboardInterrupt), Broadcast(*address, hello) as broadcast:
+        _tell_where(address[0], broadcast.port)
         broadcast.wait_for_somebody()
         note("a chart plotter is connected; the run begins")
         moments = play(begin(), broadcast, speed)
         while loop:
             moments += play(begin(), broadcast, speed)
         broadcast.finish()
-        missed = f"; {broadcast.missed:,} were missed by slow ones" if broadcast.missed else ""
-        note(f"chart: {moments:,} moments for {broadcast.met} plotter{'s' * (broadcast.met != 1)}{missed}")
+        _tell_what(moments, broadcast)

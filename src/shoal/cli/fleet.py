@@ -1,7 +1,9 @@
 """shoal fleet: the buoys themselves, in a stand-in for the sea."""
 
+from contextlib import suppress
 from pathlib import Path
-from typing import Annotated, Any
+from threading import Event
+from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
@@ -9,7 +11,12 @@ from shoal.cli.numbers import MaybeInteger, MaybeNumber, MaybeSteps
 from shoal.cli.options import edited_table
 from shoal.cli.places import check_places
 from shoal.cli.progress import note, progress_bar
+from shoal.cli.showing import NOWHERE, showing
 from shoal.cli.startup import load_compiler, tell_of_compiling
+from shoal.core.waiting import wait_for
+
+if TYPE_CHECKING:
+    from shoal.record.record import Record
 
 
 def fleet(
@@ -33,6 +40,9 @@ def fleet(
     mesh: str = "zenoh",
     max_age: MaybeInteger = None,
     plain: Annotated[bool, Parameter(negative=())] = False,
+    watch: Annotated[bool, Parameter(negative=())] = False,
+    browser: bool = True,
+    listen: str | None = None,
     out: Path | None = None,
     figure: Path | None = None,
     json_: Annotated[bool, Parameter(name="--json", negative=())] = False,
@@ -79,6 +89,13 @@ def fleet(
         Steps that a report may be old to be heard; default 0 with --lockstep, else 1.
     plain
         Let buoys decide without a compiler: they start at once, with a third of the memory.
+    watch
+        Show the buoys in the browser as they run; the page stays until Ctrl-C.
+    browser
+        Open that page in the browser.
+    listen
+        Where `shoal watch --fleet` and `shoal chart --fleet` find it, HOST:PORT, or none; port 0 is a free one. Default
+        127.0.0.1:0, which can be reached from this machine only; with --mesh memory none.
     out
         Save the record, of every step, to this new folder.
     figure
@@ -88,7 +105,7 @@ def fleet(
     """
     load_compiler()
     from shoal.run.compiling import BUOYS
-    from shoal.run.fleet.run_fleet import Terms, run_fleet
+    from shoal.run.fleet.run_fleet import Terms, check_terms, run_fleet
     from shoal.scenario.load import scenario_from
 
     changes: dict[str, Any] = {
@@ -103,10 +120,25 @@ def fleet(
     check_places(out, figure)
     chosen = scenario_from(edited_table(scenario, changes, assignments or [], target_track, track_id), where=scenario)
     terms = Terms(processes, lockstep, speed, tuple(kill or ()), mesh, max_age, plain)
-    tell_of_compiling(chosen, BUOYS)
-    note(f"{chosen.agents} buoys start (Ctrl-C ends the run, and keeps what was done)")
-    with progress_bar(f"{chosen.name}, {chosen.agents} buoys, {chosen.steps:,} steps") as progress:
-        record = run_fleet(chosen, terms, out=out, progress=progress)
+    check_terms(chosen, terms)
+    paced = None if terms.in_lockstep else terms.speed or 1.0
+    where = listen or (NOWHERE if mesh == "memory" else "127.0.0.1:0")
+    with showing(chosen, paced, page=watch, browser=browser, listen=where) as show:
+        tell_of_compiling(chosen, BUOYS)
+        note(f"{chosen.agents} buoys start (Ctrl-C ends the run, and keeps what was done)")
+        with progress_bar(f"{chosen.name}, {chosen.agents} buoys, {chosen.steps:,} steps") as progress:
+            record = run_fleet(chosen, terms, out=out, progress=progress, onlooker=show.feed.see if show else None)
+        if show:
+            show.end()
+        _tell(record, out, figure, json_)
+        if watch and record.scenario.steps == chosen.steps:
+            note("the page stays until Ctrl-C")
+            with suppress(KeyboardInterrupt):
+                wait_for(Event())
+
+
+def _tell(record: "Record", out: Path | None, figure: Path | None, json_: bool) -> None:
+    """Tell the result."""
     for each in record.provenance["notes"]:
         note(each)
     if out:

@@ -1,7 +1,7 @@
 """shoal watch: a run in the browser as it runs."""
 
 import webbrowser
-from contextlib import suppress
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,6 +11,7 @@ from shoal.cli.numbers import Integer, MaybeInteger, MaybeSteps, Number
 from shoal.cli.older import opened
 from shoal.cli.options import edited_table
 from shoal.cli.progress import note, progress_bar
+from shoal.cli.showing import serving_outlook
 from shoal.cli.startup import load_compiler, tell_of_compiling
 
 if TYPE_CHECKING:
@@ -18,9 +19,10 @@ if TYPE_CHECKING:
 
 
 def watch(
-    source: str = "oceans2020",
+    source: str | None = None,
     /,
     *,
+    fleet: str | None = None,
     against: str | None = None,
     neighbors: Annotated[str | None, Parameter(name=["--neighbors", "-k"])] = None,
     fast: MaybeInteger = None,
@@ -43,7 +45,9 @@ def watch(
     Parameters
     ----------
     source
-        A preset's name, a TOML file, or a record (folder made by --out), whose frames are played.
+        A preset's name, a TOML file, or a record (folder made by --out), whose frames are played. Default oceans2020.
+    fleet
+        Watch a fleet that runs instead: HOST:PORT as `shoal fleet` says it. It is only listened to.
     against
         A second run beside it, on the same seed: another preset or file, or a change such as neighbors=5.
     neighbors
@@ -93,6 +97,17 @@ def watch(
         "steps": steps,
         "seed": seed,
     }
+    if fleet is not None:
+        asked = [source, against, out, target_track, track_id, assignments, *changes.values()]
+        if any(each is not None for each in asked) or speed != 1.0:
+            problem, fix = (
+                "is of buoys that decide by themselves, and is watched as it is",
+                "leave out what would change it",
+            )
+            raise ScenarioError("--fleet", problem, fix)
+        _watch_fleet(fleet, host, port, browser)
+        return
+    source = source or "oceans2020"
     if Path(source).is_dir():
         asked = [against, out, target_track, track_id, assignments, *changes.values()]
         if any(each is not None for each in asked):
@@ -105,6 +120,25 @@ def watch(
             raise ScenarioError("--out", "keeps one run, and --against shows two", "leave out one of them")
         tables.append(_other(tables[0], against))
     _watch(tables, [source, against or ""], speed, host, port, browser, out)
+
+
+def _watch_fleet(address: str, host: str, port: int, browser: bool) -> None:
+    from threading import Event
+
+    from shoal.buoy.address import host_and_port
+    from shoal.buoy.beacon import Lookout
+    from shoal.core.waiting import wait_for
+    from shoal.viewer.bulletin import bulletins
+    from shoal.viewer.outlook import Outlook
+
+    lookout, outlook = Lookout(*host_and_port(address, "--fleet")), Outlook()
+    with suppress(KeyboardInterrupt), closing(lookout), serving_outlook(outlook, host=host, port=port, browser=browser):
+        for bulletin in bulletins(lookout, 0.5):
+            if bulletin:
+                outlook.hear(bulletin)
+        outlook.end("the fleet is gone")
+        note("the fleet is gone; the page stays until Ctrl-C")
+        wait_for(Event())
 
 
 def _watch(

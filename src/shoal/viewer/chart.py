@@ -3,18 +3,21 @@
 import math
 import time
 from collections.abc import Iterator
+from datetime import UTC, datetime, timedelta
 
 import numpy as np
 
 from shoal.core.errors import ScenarioError
+from shoal.core.geodesy import Frame
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.record.voyage.ais import names, positions
 from shoal.record.voyage.anchor import Anchor
-from shoal.record.voyage.voyages import Craft, frames_of, voyages_of
+from shoal.record.voyage.voyages import Craft, Places, frames_of, voyages_of
 from shoal.run.facts import facts_of
 from shoal.run.simulation import Simulation
 from shoal.viewer.broadcast import Broadcast
+from shoal.viewer.bulletin import Bulletin
 
 END = "\r\n"  # of a line, as NMEA 0183 has it
 
@@ -58,6 +61,34 @@ def live_moments(simulation: Simulation, every: float, anchor: Anchor) -> Iterat
         voyages = voyages_of(Trajectory.join(seen), facts, anchor, "")
         yield simulation.number * facts.time_step, _message(positions(voyages, len(seen) - 1))
         simulation.advance(min(steps, simulation.scenario.steps - simulation.number))
+
+
+def follow(bulletins: Iterator[Bulletin | None], broadcast: Broadcast, every: float, frame: Frame) -> int:
+    """Send what a fleet says as it comes, `every` seconds of its run apart or more; return how many moments that were.
+
+    Parameters
+    ----------
+    bulletins : with None where nothing new came for a while
+    frame : local meters around the center of the scenario
+    """
+    seen: list[Places] = []
+    due, count = -math.inf, 0
+    for bulletin in bulletins:
+        broadcast.wait(time.monotonic())
+        if bulletin is None or not bulletin.frame:
+            continue
+        facts, places = bulletin.facts, bulletin.places
+        now = bulletin.step * facts.time_step
+        if now < due:
+            continue
+        due = now + every * (1.0 - 1e-9)
+        seen = [*seen[-1:], places]
+        both = Places(*(np.concatenate(parts) for parts in zip(*seen, strict=True)))
+        start = datetime.now(UTC) - timedelta(seconds=now)
+        voyages = voyages_of(both, facts, Anchor(frame, start), "")
+        broadcast.send(_message(positions(voyages, len(seen) - 1)))
+        count += 1
+    return count
 
 
 def play(moments: Iterator[Moment], broadcast: Broadcast, speed: float) -> int:

@@ -4,15 +4,35 @@ import asyncio
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
+from typing import Protocol
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from shoal.viewer.requests import RequestError, parse_request
+from shoal.viewer.requests import Request, RequestError, parse_request
 from shoal.viewer.scene import as_json
-from shoal.viewer.worker import Watcher, Worker
+from shoal.viewer.worker import View, Watcher
 
 NONSENSE = 20  # malformed messages after which a page is disconnected
 UNHEARD = 32  # error messages that wait for one page, at most
+
+
+class Show(Protocol):
+    """What a page looks at: a worker with its session, or the outlook on a fleet."""
+
+    hello: str
+    view: View
+
+    def history(self) -> list[str]:
+        """For each run the message that fills a new page's charts."""
+
+    def watch(self, watcher: Watcher) -> None:
+        """Tell a watcher of everything from now on."""
+
+    def leave(self, watcher: Watcher) -> None:
+        """Tell it nothing more."""
+
+    def ask(self, request: Request, watcher: Watcher) -> None:
+        """Do what a page asks for; the watcher hears if it is refused."""
 
 
 class Client:
@@ -21,9 +41,9 @@ class Client:
     It may be as slow as it likes: what comes meanwhile is skipped, and nobody waits for it.
     """
 
-    def __init__(self, socket: WebSocket, worker: Worker) -> None:
+    def __init__(self, socket: WebSocket, show: Show) -> None:
         self._socket = socket
-        self._worker = worker
+        self._show = show
         self._news = asyncio.Event()
         self._nonsense = 0
         self._errors: deque[str] = deque(maxlen=UNHEARD)
@@ -40,12 +60,12 @@ class Client:
     async def serve(self) -> None:
         """Until the page is closed."""
         await self._socket.accept()
-        self._worker.watch(self._watcher)
+        self._show.watch(self._watcher)
         telling = asyncio.create_task(self._tell())
         try:
             await self._hear()
         finally:
-            self._worker.leave(self._watcher)
+            self._show.leave(self._watcher)
             telling.cancel()
             with suppress(asyncio.CancelledError, WebSocketDisconnect):
                 await telling
@@ -53,10 +73,10 @@ class Client:
             await self._socket.close(1008, "too many messages that are not requests")
 
     async def _tell(self) -> None:
-        await self._socket.send_text(self._worker.hello)
-        for history in self._worker.session.history():
+        await self._socket.send_text(self._show.hello)
+        for history in self._show.history():
             await self._socket.send_text(history)
-        scenes: list[str | None] = [None] * len(self._worker.session.runs)
+        scenes: tuple[str, ...] = ()
         kept = None
         self._news.set()
         while True:
@@ -64,11 +84,11 @@ class Client:
             self._news.clear()
             while self._errors:
                 await self._socket.send_text(as_json({"type": "error", "message": self._errors.popleft()}))
-            view = self._worker.view
+            view = self._show.view
             for run, scene in enumerate(view.kept.scenes):
-                if scene is not scenes[run]:
-                    scenes[run] = scene
+                if scene not in scenes[run : run + 1]:
                     await self._socket.send_text(scene)
+            scenes = view.kept.scenes
             if view.kept is not kept:
                 kept = view.kept
                 for frame in kept.frames:
@@ -88,7 +108,7 @@ class Client:
                 self._nonsense += 1
                 self._fail(str(error))
             else:
-                self._worker.ask(request, self._watcher)
+                self._show.ask(request, self._watcher)
 
     def _fail(self, message: str) -> None:
         self._errors.append(message)

@@ -1,18 +1,22 @@
 """A frame as bytes: docs/reference/view-protocol.md, in the words of numpy."""
 
+from collections.abc import Collection
 from functools import cache
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from shoal.core.errors import MessageError
+from shoal.core.links import unpacked
 from shoal.record.trajectory import Trajectory
+from shoal.record.voyage.voyages import Places
 
 FORMAT = 2  # 1 had no links
 REPULSION = "repulsion"  # the memory field that the page shows as a_R
 BINS = 11  # of phi
 RECENT = 1000  # steps of the shorter mean
-ON_TARGET, ALIVE = 1, 2  # bits of an agent
+ON_TARGET, ALIVE, SILENT = 1, 2, 4  # bits of an agent
 PRESENT = 1  # bit of a target
 
 
@@ -34,8 +38,8 @@ class Gauges(NamedTuple):
     phi: npt.ArrayLike
 
 
-def pack(frames: Trajectory, at: int, *, run: int, epoch: int, gauges: Gauges) -> bytes:
-    """Return the bytes of one frame of a trajectory."""
+def pack(frames: Trajectory, at: int, *, run: int, epoch: int, gauges: Gauges, silent: Collection[int] = ()) -> bytes:
+    """Return the bytes of one frame of a trajectory; the silent neither hear nor are heard."""
     size = frames.x.shape[1], frames.target_x.shape[1], frames.links.shape[2]
     frame = np.zeros((), _layout(*size))
     frame["format"], frame["run"], frame["epoch"] = FORMAT, run, epoch % 65536
@@ -48,7 +52,38 @@ def pack(frames: Trajectory, at: int, *, run: int, epoch: int, gauges: Gauges) -
     frame["degree"] = frames.neighbors[at]
     frame["agent_bits"] = frames.on_target[at] * ON_TARGET + frames.alive[at] * ALIVE
     frame["target_bits"] = frames.target_present[at] * PRESENT
+    if silent:
+        ids = np.fromiter(silent, np.int64, len(silent))
+        frame["agent_bits"][ids] |= SILENT
+        if size[2]:
+            heard = unpacked(frame["links"])
+            heard[ids, :] = heard[:, ids] = False
+            frame["links"] = np.packbits(heard, axis=1, bitorder="little")
     return frame.tobytes()
+
+
+def places_of(frame: bytes) -> Places:
+    """Return where everybody is in a packed frame.
+
+    Raises
+    ------
+    MessageError : bytes that are no frame of this format
+    """
+    try:
+        head = np.frombuffer(frame, _layout(0, 0, 0), count=1)[0]
+        if head["format"] != FORMAT:
+            raise ValueError(f"it is of format {head['format']}, not {FORMAT}")
+        (read,) = np.frombuffer(frame, _layout(*(int(head[name]) for name in ("agents", "targets", "link_bytes"))))
+    except (ValueError, TypeError, OverflowError, MemoryError) as error:
+        raise MessageError("frame", f"cannot be read: {error}", "watch with the same version of Shoal") from None
+    numbers = {name: read[name][None].astype(np.float64) for name in ("x", "y", "vx", "vy", "target_x", "target_y")}
+    return Places(
+        step=np.array([read["step"]], np.int64),
+        on_target=(read["agent_bits"] & ON_TARGET > 0)[None],
+        alive=(read["agent_bits"] & ALIVE > 0)[None],
+        target_present=(read["target_bits"] & PRESENT > 0)[None],
+        **numbers,
+    )
 
 
 def gauges_of(frame: bytes) -> Gauges:

@@ -1,17 +1,12 @@
 """One run that goes on while its scenario changes: what the controls of the page act on."""
 
-import math
-from collections import deque
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from shoal.core.errors import ScenarioError
 from shoal.core.links import link_bytes
-from shoal.record.course import value_of
-from shoal.record.frames import moment_of
-from shoal.record.trajectory import Trajectory
 from shoal.run.carry_over import carry_over
 from shoal.run.compiling import mark_compiled
 from shoal.run.facts import facts_of
@@ -22,20 +17,13 @@ from shoal.scenario.load import scenario_from
 from shoal.scenario.schema import Scenario
 from shoal.strategies import CATALOGUE
 from shoal.strategies.contract import RESERVED
-from shoal.viewer.frame import RECENT, Gauges, pack
+from shoal.viewer.frame import pack
+from shoal.viewer.gauging import Gauging
 from shoal.viewer.scene import as_json, scene_of
 
 Table = dict[str, Any]
 
 CHANGEABLE = ("neighbors", "target_speed", "fast", "strategy")  # and strategy.PARAMETER
-
-
-class _Mark(NamedTuple):
-    """Sums of all steps before a step."""
-
-    step: int
-    present: float
-    on_target: float
 
 
 class LiveRun:
@@ -65,7 +53,9 @@ class LiveRun:
     def frame(self) -> bytes:
         """The bytes of the current frame."""
         shown = self.simulation.look()
-        return pack(shown, 0, run=self.place, epoch=self._epoch, gauges=self._gauges(shown))
+        return pack(
+            shown, 0, run=self.place, epoch=self._epoch, gauges=self._gauging.of(self.simulation, shown, self._facts)
+        )
 
     def scenario_with(self, changes: Mapping[str, Any]) -> tuple[Table, Scenario]:
         """Return table and scenario with some fields changed; nothing happens yet.
@@ -138,15 +128,14 @@ class LiveRun:
         simulation = Simulation(scenario)
         simulation.advance(0)  # compiles
         mark_compiled(scenario)
-        self._before = _Mark(0, 0.0, 0.0)
-        self._marks: deque[_Mark] = deque()
+        self._gauging = Gauging()
         self._settle(simulation)
 
     def _become(self, table: Table, simulation: Simulation) -> None:
         """Go on as a changed swarm."""
         simulation.advance(0)
         mark_compiled(simulation.scenario)
-        self._before = self._sums()
+        self._gauging.begin_anew(self.simulation)
         self._table = table
         self._settle(simulation)
 
@@ -162,34 +151,6 @@ class LiveRun:
             since=simulation.number,
         )
         self.message = as_json({"type": "scene", "run": self.place, "scene": scene})
-
-    def _sums(self) -> _Mark:
-        tally = self.simulation.tally
-        present = self._before.present + float(tally.present.sum())
-        return _Mark(self.simulation.number, present, self._before.on_target + float(tally.on_target.sum()))
-
-    def _gauges(self, shown: Trajectory) -> Gauges:
-        tally, facts = self.simulation.tally, self._facts
-        moment = moment_of(shown, 0, facts)
-        return Gauges(
-            time_on_target=value_of("time_on_target", tally, facts),
-            recent=self._recent(),
-            xi=value_of("xi", tally, facts),
-            xi_now=moment.xi,
-            engaged=float(shown.engaged.sum()),
-            phi=moment.phi.sum(axis=0),
-        )
-
-    def _recent(self) -> float:
-        """Time on target over the last 1,000 steps, or since the last frame looked at before that."""
-        now = self._sums()
-        if not self._marks or self._marks[-1].step < now.step:
-            self._marks.append(now)
-        while len(self._marks) > 1 and self._marks[1].step <= now.step - RECENT:
-            self._marks.popleft()
-        then = self._marks[0]
-        present = now.present - then.present
-        return (now.on_target - then.on_target) / present if present > 0 else math.nan
 
     def _with_strategy(self, name: Any) -> Table:
         """The table with another strategy: of the catalogue, or the one that the run began with; never a file."""

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from starlette.applications import Starlette
     from starlette.websockets import WebSocket
 
+    from shoal.viewer.client import Show
+
 _HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
@@ -73,8 +75,8 @@ def serving(app: "Starlette", host: str = LOCAL, port: int = 0) -> Iterator[str]
         listener.close()
 
 
-def live_app(worker: Worker) -> "Starlette":
-    """The page, and the WebSocket through which it sees and controls the worker's session."""
+def live_app(show: "Show") -> "Starlette":
+    """The page, and the WebSocket through which it sees and controls what there is to see."""
     require_libraries()
     from starlette.applications import Starlette
     from starlette.routing import WebSocketRoute
@@ -82,7 +84,7 @@ def live_app(worker: Worker) -> "Starlette":
     from shoal.viewer.client import Client
 
     async def live(socket: "WebSocket") -> None:
-        await Client(socket, worker).serve()
+        await Client(socket, show).serve()
 
     files = {path: (each.content, each.media_type) for path, each in assets().items()}
     return Starlette(routes=[*_routes(files, LIVE_POLICY), WebSocketRoute("/live", live)])

@@ -124,7 +124,7 @@ class Session:
     def history(self) -> list[str]:
         """For each run the message that fills a new page's charts; may be called from any thread."""
         kept = self._ring.spread(POINTS)
-        return [_history(run, kept) for run in range(len(self.runs))]
+        return [history_of(run, kept) for run in range(len(self.runs))]
 
     def play_on(self) -> float:
         """Run to the next frame of the speed, keep it, show it; return how long it lasts [s]."""
@@ -222,7 +222,8 @@ class Session:
             self.on_busy()
 
 
-def _history(run: int, kept: Sequence[Kept]) -> str:
+def history_of(run: int, kept: Sequence[Kept]) -> str:
+    """The message that fills the charts of a run with some of its frames."""
     gauges = [gauges_of(each.frames[run]) for each in kept]
     return as_json(
         {

@@ -74,6 +74,10 @@ class Worker:
             self._asked.put_nowait(None)  # wakes it up
         self._thread.join()
 
+    def history(self) -> list[str]:
+        """For each run the message that fills a new page's charts."""
+        return self.session.history()
+
     def wait(self) -> None:
         """Wait until the thread ends; raise what ended it."""
         wait_for(self._ended)

@@ -38,6 +38,21 @@ class Craft(NamedTuple):
     name: str
 
 
+class Places(NamedTuple):
+    """The parts of a Trajectory that say where everybody was, for whom nothing else is known."""
+
+    step: npt.NDArray[np.int64]
+    x: Floats
+    y: Floats
+    vx: Floats
+    vy: Floats
+    on_target: npt.NDArray[np.bool_]
+    alive: npt.NDArray[np.bool_]
+    target_x: Floats
+    target_y: Floats
+    target_present: npt.NDArray[np.bool_]
+
+
 class Voyages(NamedTuple):
     """Where M crafts were at K times, agents first; NaN where one was not there.
 
@@ -102,7 +117,7 @@ def frames_of(record: Record, run: int, every: int | None = None) -> Trajectory:
     return Trajectory.from_arrays({name: part[chosen] for name, part in frames.arrays().items()})
 
 
-def voyages_of(frames: Trajectory, facts: Facts, anchor: Anchor, title: str) -> Voyages:
+def voyages_of(frames: Trajectory | Places, facts: Facts, anchor: Anchor, title: str) -> Voyages:
     """Return where everybody was.
 
     Raises

@@ -1,5 +1,6 @@
 """What a fleet did, as a record: every step, who was lost when, and what went wrong on the way."""
 
+from collections.abc import Callable, Collection
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -15,9 +16,12 @@ from shoal.record.trajectory import Trajectory
 from shoal.run.facts import facts_of
 from shoal.run.fleet.ocean import Ocean
 from shoal.run.simulate import provenance
+from shoal.run.simulation import Simulation
 from shoal.scenario.crew import crew_of
 from shoal.scenario.presence import Loss
 from shoal.scenario.schema import Scenario
+
+Onlooker = Callable[[Simulation, Trajectory, Collection[int]], None]  # told the run, the frame, and who is silent
 
 
 class Log:
@@ -26,16 +30,21 @@ class Log:
     Parameters
     ----------
     ocean : that it is in
+    onlooker : told of every frame before the step that begins with it; default: nobody is
 
     Attributes
     ----------
     lost : step and number of every buoy that was lost and that the scenario does not lose
+    silent : who is there and says nothing, by number
     notes : what else is to be told
     """
 
-    def __init__(self, ocean: Ocean) -> None:
+    def __init__(self, ocean: Ocean, onlooker: Onlooker | None = None) -> None:
         self.lost: list[tuple[int, int]] = []
+        self.silent: Collection[int] = ()
         self.notes: list[str] = []
+        if onlooker:
+            ocean.on_step = lambda frame: onlooker(ocean.simulation, self._with_memory(frame), self.silent)
         self._ocean = ocean
         self._fields = crew_of(ocean.simulation.scenario).memory
         self._frames: list[Trajectory] = []
@@ -55,8 +64,11 @@ class Log:
     def keep(self, frame: Trajectory) -> None:
         """Keep the frame of a step, which began with what buoys remembered; puppets remember what they want."""
         self._wants.append(np.stack([frame.memory["want_x"][0], frame.memory["want_y"][0]], axis=1))
+        self._frames.append(self._with_memory(frame))
+
+    def _with_memory(self, frame: Trajectory) -> Trajectory:
         memory = {name: self._memory[None, :, m].copy() for m, name in enumerate(self._fields)}
-        self._frames.append(replace(frame, memory=memory))
+        return replace(frame, memory=memory)
 
     def lose(self, step: int, ids: list[int]) -> None:
         """Note who was lost at a step."""

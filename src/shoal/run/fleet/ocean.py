@@ -1,6 +1,6 @@
 """The stand-in for the sea: the engine's own world, whose agents want what buoys outside want."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 import numpy.typing as npt
@@ -28,6 +28,7 @@ class Ocean:
     simulation : the engine's run; roster, tally, notes are there
     leaves : the step at which the scenario loses each agent, (N,)
     ideal : whether radios reach everybody: then buoys choose whom they hear, else the sea says whom they can
+    on_step : called with the frame that a step begins with, before it is done
 
     Raises
     ------
@@ -52,6 +53,7 @@ class Ocean:
             problem = f"has limited radios and {scenario.agents} agents, but whom each hears is known of {MOST_LINKED}"
             raise ScenarioError(scenario.name, problem, f"take {MOST_LINKED} agents at most, or radios without limits")
         self._agents = scenario.agents
+        self.on_step: Callable[[Trajectory], None] = lambda frame: None
         self.leaves = self.simulation.swarm.leaves[: scenario.agents].copy()
 
     @property
@@ -90,6 +92,7 @@ class Ocean:
     def advance(self) -> Trajectory:
         """Do a step; return the frame that it began with."""
         frame = self.simulation.look()  # not `every=1`, which makes room for frames anew
+        self.on_step(frame)
         self.simulation.advance(1)
         return frame
 

@@ -87,6 +87,7 @@ class PacedSea:
         ids = np.flatnonzero(silent).astype(np.int32)
         if ids.size:
             self._ocean.obey(ids, np.zeros((ids.size, 2)))
+        self._log.silent = ids.tolist()
         for id in ids.tolist():
             self._silent.setdefault(id, int(self._said[id]))
         for id in [id for id in self._silent if not silent[id]]:

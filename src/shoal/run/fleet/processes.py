@@ -8,7 +8,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from multiprocessing import AuthenticationError
 from multiprocessing.connection import Connection, Listener, wait
@@ -57,6 +57,7 @@ class Processes:
     max_age : steps that a report may be old to be heard
     period : of a step on the clock [s]; None: lockstep
     plain : whether buoys decide without a compiler
+    meanwhile : what else is done while they start
 
     Attributes
     ----------
@@ -78,8 +79,10 @@ class Processes:
         max_age: int = 0,
         period: float | None = None,
         plain: bool = False,
+        meanwhile: Callable[[], object] | None = None,
     ) -> None:
         self.tied: list[Tied] = []
+        self._meanwhile = meanwhile
         self.gone: list[Tied] = []
         self._scenario = scenario
         self._shares = [tuple(each) for each in shares]
@@ -107,6 +110,8 @@ class Processes:
             threading.Thread(target=self._accept, daemon=True).start()
             for ids in self._shares:
                 self._started[ids] = self._start(file, ids)
+            if self._meanwhile:
+                self._meanwhile()
             self._gather()
         except BaseException:
             self.__exit__(None, None, None)

@@ -15,12 +15,14 @@ from shoal.record.record import Record
 from shoal.run.compiling import BUOYS, mark_compiled
 from shoal.run.fleet.kills import Killing, kills_of
 from shoal.run.fleet.lockstep import Crowd, run_in_lockstep
-from shoal.run.fleet.log import Log
+from shoal.run.fleet.log import Log, Onlooker
 from shoal.run.fleet.memory import InMemory
-from shoal.run.fleet.ocean import Ocean
+from shoal.run.fleet.ocean import Ocean, check_buoys_can
 from shoal.run.fleet.paced import PacedSea, percentile
 from shoal.run.fleet.processes import Processes
+from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
+from shoal.scenario.schema import Scenario
 
 MESHES = ("zenoh", "memory")
 
@@ -48,6 +50,11 @@ class Terms:
     max_age: int | None = None
     plain: bool = False
 
+    @property
+    def in_lockstep(self) -> bool:
+        """Whether a step takes as long as all buoys need."""
+        return self.lockstep or self.mesh == "memory"
+
 
 def run_fleet(
     scenario: Source,
@@ -55,6 +62,7 @@ def run_fleet(
     *,
     out: str | Path | None = None,
     progress: Callable[[int, int], None] | None = None,
+    onlooker: Onlooker | None = None,
 ) -> Record:
     """Run the buoys of a scenario by themselves in a stand-in for the sea, and return the record of what they did.
 
@@ -66,6 +74,7 @@ def run_fleet(
     terms : how; default: by the clock, on a mesh of zenoh, in a process for each core
     out : write the record to this new folder
     progress : called as progress(steps done, steps in all)
+    onlooker : called as onlooker(simulation, frame, who is silent) before every step, and must be quick
 
     Raises
     ------
@@ -81,22 +90,32 @@ def run_fleet(
         with RecordFolder(out):  # refused now, not after the run
             pass
     in_memory = terms.mesh == "memory"
-    by_clock = not (terms.lockstep or in_memory)
+    by_clock = not terms.in_lockstep
     period = scenario.time_step / (terms.speed or 1.0)
     max_age = terms.max_age if terms.max_age is not None else int(by_clock)
-    ocean = Ocean(scenario)
     notes: list[str] = []
     report = progress or (lambda done, total: None)
     with ExitStack() as stack:
         crowd: Crowd
         if in_memory:
+            ocean = _opened(scenario, onlooker)
             crowd = InMemory(scenario, max_age=max_age)
         else:
+            check_buoys_can(scenario, crew_of(scenario))
+            oceans: list[Ocean] = []
             crowd = stack.enter_context(
-                Processes(scenario, shares, max_age=max_age, period=period if by_clock else None, plain=terms.plain)
+                Processes(
+                    scenario,
+                    shares,
+                    max_age=max_age,
+                    period=period if by_clock else None,
+                    plain=terms.plain,
+                    meanwhile=lambda: oceans.append(_opened(scenario, onlooker)),
+                )
             )
+            (ocean,) = oceans
         mark_compiled(scenario, BUOYS)
-        killing, log = Killing(crowd, kills), Log(ocean)
+        killing, log = Killing(crowd, kills), Log(ocean, onlooker)
         sea = PacedSea(ocean, crowd, killing, log, period) if isinstance(crowd, Processes) and by_clock else None
         try:
             if sea:
@@ -111,6 +130,26 @@ def run_fleet(
         words = crowd.last_words() if isinstance(crowd, Processes) else []
         notes = [*notes, *_lost(log.lost), *words, *(sea.notes() if sea else ()), *_measured(facts, by_clock)]
     return log.record(notes, None if out is None else Path(out))
+
+
+def _opened(scenario: Scenario, onlooker: Onlooker | None) -> Ocean:
+    """The sea before the first step, as the onlooker sees it while buoys start."""
+    ocean = Ocean(scenario)
+    if onlooker:
+        onlooker(ocean.simulation, ocean.simulation.look(), ())
+    return ocean
+
+
+def check_terms(scenario: Scenario, terms: Terms) -> None:
+    """Refuse terms that cannot be, and what buoys cannot do, before anything starts.
+
+    Raises
+    ------
+    ScenarioError, StrategyError, FleetError : as run_fleet
+    """
+    kills_of(terms.kill, scenario.agents)
+    _shares(scenario.agents, terms)
+    check_buoys_can(scenario, crew_of(scenario))
 
 
 def _shares(agents: int, terms: Terms) -> list[list[int]]:
