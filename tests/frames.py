@@ -27,6 +27,7 @@ def decode(data):
     frame.degree = take("H", agents)
     bits = take("B", agents)
     frame.on_target, frame.alive = [bool(each & 1) for each in bits], [bool(each & 2) for each in bits]
+    frame.silent = [bool(each & 4) for each in bits]
     frame.present = [bool(each & 1) for each in take("B", targets)]
     rows = [take("B", link_bytes) for _ in range(agents)]
     frame.hears = [[bool(row[j // 8] >> (j % 8) & 1) for j in range(agents)] for row in rows] if link_bytes else None

@@ -1,10 +1,13 @@
 """The page in a real browser: live, as a replay, by mouse, by keyboard and on a phone."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from bulletins import FRAMES, GAUGES, bulletin
 from scenarios import scenario
 from shoal.drawing.words import estimate_text
 from shoal.run.simulate import simulate
@@ -13,8 +16,10 @@ from shoal.scenario.load import read_table
 pytest.importorskip("starlette", reason="the viewer's libraries are not installed")
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
 
+from shoal.viewer.frame import pack  # noqa: E402
+from shoal.viewer.outlook import Outlook  # noqa: E402
 from shoal.viewer.replay import replay_page  # noqa: E402
-from shoal.viewer.server import page_app, serving, serving_session  # noqa: E402
+from shoal.viewer.server import live_app, page_app, serving, serving_session  # noqa: E402
 from shoal.viewer.session import Session  # noqa: E402
 
 CHROMIUM = [Path(path) for path in ("/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome")]
@@ -314,6 +319,49 @@ class TestARecording:
             assert page.get_by_role("slider", name="Target speed").is_disabled()
             assert page.get_by_role("button", name="Restart", exact=True).is_disabled()
             pause(page)
+
+
+class TestAFleet:
+    @pytest.fixture
+    def outlook(self):
+        outlook = Outlook()
+        outlook.hear(bulletin(frame=b"", busy="5 buoys start"))
+        return outlook
+
+    def test_says_that_its_buoys_start_and_then_who_is_there(self, browser, outlook):
+        with serving(live_app(outlook)) as address:
+            context = browser.new_context(viewport=DESK)
+            page = context.new_page()
+            page.goto(address)
+            page.get_by_text("5 buoys start").wait_for()
+            frame = replace(FRAMES, alive=FRAMES.alive & (np.arange(5) != 4))
+            outlook.hear(bulletin(frame=pack(frame, 1, run=0, epoch=0, gauges=GAUGES, silent=[2])))
+            roll = page.get_by_role("region", name="Fleet")
+            roll.get_by_text("4 of 5").wait_for()
+            assert roll.locator("dd").all_inner_texts() == ["4 of 5", "no. 4", "no. 2"]
+            page.get_by_text("1 silent").wait_for()
+            assert not page.get_by_text("5 buoys start").is_visible()
+            context.close()
+
+    def test_can_be_looked_back_through_and_not_changed(self, open_page, outlook):
+        for at in range(3):
+            outlook.hear(bulletin(at))
+        with serving(live_app(outlook)) as address:
+            page = open_page(address)
+            for name in ("Neighbors heard, k", "Target speed", "Speed"):
+                assert page.get_by_role("slider", name=name, exact=True).count() == 0
+            assert page.get_by_role("button", name="Restart").count() == 0
+            assert page.evaluate("shoal.charted()") == 0
+            pause(page)
+            page.keyboard.press("ArrowLeft")
+            page.wait_for_function("() => shoal.step() === 10")
+            page.keyboard.press("r")  # keys of what is not there do nothing
+            page.keyboard.press("]")
+            play(page)
+            page.wait_for_function("() => shoal.step() === 20")
+            outlook.end("the fleet is gone")
+            page.get_by_text("the fleet is gone").wait_for()
+            assert page.get_by_role("alert").is_hidden()
 
 
 class TestAReplay:

@@ -5,14 +5,16 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 
+from bulletins import FRAMES, bulletin
 from plotters import Plotter, decoded
 from scenarios import scenario
 from shoal.core.errors import ScenarioError
+from shoal.core.geodesy import Frame
 from shoal.record.voyage.anchor import anchor_of
 from shoal.record.voyage.voyages import crafts_of
 from shoal.run.simulation import Simulation
 from shoal.viewer.broadcast import Broadcast
-from shoal.viewer.chart import check_pace, greeting, live_moments, play, recorded_moments
+from shoal.viewer.chart import check_pace, follow, greeting, live_moments, play, recorded_moments
 from voyages import ORIGIN, START, made_record
 
 pytest.importorskip("pyais")
@@ -93,6 +95,27 @@ class TestLive:
         ((now, message),) = live_moments(simulation, 0.55, anchor(chosen, start=late))
         assert now == 2.0
         assert {each.second for each in decoded(message.split())} == {1}
+
+
+class TestAFleet:
+    def test_is_heard_where_it_is_as_often_as_asked_for(self):
+        said = [bulletin(0), None, bulletin(0), bulletin(1), bulletin(2), bulletin(frame=b"", busy="over")]
+        with Broadcast("127.0.0.1", 0, b"") as broadcast:
+            plotter = Plotter(broadcast.port)
+            broadcast.wait_for_somebody()
+            assert follow(iter(said), broadcast, 1.0, Frame(ORIGIN)) == 3  # step 0 was said twice
+            broadcast.finish()
+            assert broadcast.missed == 0
+        reports = list(plotter.messages())
+        assert len(reports) == 3 * 6
+        x, y = (np.hstack(pair).ravel() for pair in ((FRAMES.x, FRAMES.target_x), (FRAMES.y, FRAMES.target_y)))
+        assert distances(reports, x, y).max() < RESOLUTION
+        way = np.hypot(np.diff(FRAMES.x[1:, 0]), np.diff(FRAMES.y[1:, 0]))  # of the first buoy, in a second
+        assert reports[-6].speed == pytest.approx(way * 3600 / 1852, abs=0.06)
+
+    def test_moments_that_are_too_close_are_left_out(self):
+        with Broadcast("127.0.0.1", 0, b"") as broadcast:
+            assert follow(iter([bulletin(at) for at in range(3)]), broadcast, 2.0, Frame(ORIGIN)) == 2
 
 
 class TestPace:

@@ -72,3 +72,17 @@ class TestPack:
     @pytest.mark.parametrize(("agents", "each"), [(50, 23 + 7), (512, 23 + 64), (513, 23), (10_000, 23)])
     def test_an_agent_costs_so_many_bytes(self, agents, each):
         assert len(packed(agents, 1)[1]) == 93 + each * agents
+
+
+class TestTheSilent:
+    def test_are_marked_and_neither_hear_nor_are_heard(self):
+        what = trajectory(12, 1)
+        frames = [decode(pack(what, 0, run=0, epoch=0, gauges=GAUGES, silent=silent)) for silent in ((), (3, 9))]
+        assert [each.silent for each in frames] == [[False] * 12, [agent in (3, 9) for agent in range(12)]]
+        for i, (before, after) in enumerate(zip(*(each.hears for each in frames), strict=True)):
+            assert after == [heard and i not in (3, 9) and j not in (3, 9) for j, heard in enumerate(before)]
+        assert frames[0].alive == frames[1].alive
+
+    def test_are_marked_where_links_are_not_kept(self):
+        frame = decode(pack(trajectory(600, 1), 0, run=0, epoch=0, gauges=GAUGES, silent=[599]))
+        assert (sum(frame.silent), frame.silent[599]) == (1, True)
