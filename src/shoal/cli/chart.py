@@ -107,6 +107,7 @@ def _follow(fleet: str, place: tuple[float, float] | None, every: float, address
     from shoal.core.errors import ScenarioError
     from shoal.core.geodesy import Frame
     from shoal.record.voyage.voyages import crafts_of
+    from shoal.run.facts import facts_told
     from shoal.viewer.broadcast import Broadcast
     from shoal.viewer.bulletin import bulletins
     from shoal.viewer.chart import follow, greeting
@@ -120,7 +121,7 @@ def _follow(fleet: str, place: tuple[float, float] | None, every: float, address
         if origin is None:
             fix = "say where its center lies: --origin LON,LAT, such as --origin=-1.3,50.8"
             raise ScenarioError("--fleet", "is of a scenario that has no place on Earth (area.origin)", fix)
-        hello = greeting(crafts_of(first.facts, len(first.scene["targets"])))
+        hello = greeting(crafts_of(facts_told(first.scene), len(first.scene["targets"])))
         with Broadcast(*address, hello) as broadcast:
             _tell_where(address[0], broadcast.port)
             moments = follow(heard, broadcast, every, Frame(origin))

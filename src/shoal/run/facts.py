@@ -1,5 +1,6 @@
 """What metrics need to know of a scenario, and what the engine was given of each agent."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,23 @@ def facts_of(scenario: Scenario) -> Facts:
         airtime=airtime(scenario),
         capacities=tuple(fleet.battery.capacity if fleet.battery else 0.0 for fleet in fleets) if powered else (),
         costs=tuple(fleet.cost for fleet in fleets if fleet.cost is not None) if priced else (),
+    )
+
+
+def facts_told(told: Mapping[str, Any]) -> Facts:
+    """The facts that somebody else's scene tells: fleets, unit and time-step, and no more.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError : it does not
+    """
+    fleets = told["fleets"]
+    return Facts(
+        fleets=tuple(str(each["name"]) for each in fleets),
+        counts=tuple(int(each["count"]) for each in fleets),
+        max_speeds=tuple(float(each["max_speed"]) for each in fleets),
+        unit=float(told["unit"]),
+        time_step=float(told["time_step"]),
     )
 
 

@@ -3,12 +3,11 @@
 import json
 import struct
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
-from shoal.buoy.beacon import Lookout
 from shoal.core.errors import MessageError
-from shoal.metrics.contract import Facts
 from shoal.record.voyage.voyages import Places
+from shoal.run.facts import facts_told
 from shoal.viewer.frame import places_of
 from shoal.viewer.scene import as_json
 
@@ -42,18 +41,6 @@ class Bulletin(NamedTuple):
         """Where everybody is in the frame."""
         return places_of(self.frame)
 
-    @property
-    def facts(self) -> Facts:
-        """What the scene says of the swarm."""
-        fleets = self.scene["fleets"]
-        return Facts(
-            fleets=tuple(str(each["name"]) for each in fleets),
-            counts=tuple(int(each["count"]) for each in fleets),
-            max_speeds=tuple(float(each["max_speed"]) for each in fleets),
-            unit=float(self.scene["unit"]),
-            time_step=float(self.scene["time_step"]),
-        )
-
     def to_bytes(self) -> bytes:
         """As it goes over the mesh."""
         words = as_json({"scene": self.scene, "origin": self.origin, "speed": self.speed, "busy": self.busy}).encode()
@@ -84,7 +71,7 @@ class Bulletin(NamedTuple):
                 None if busy is None else str(busy),
                 frame,
             )
-            facts = read.facts
+            facts = facts_told(read.scene)
             if frame and (facts.agents, len(read.scene["targets"])) != (
                 read.places.x.shape[1],
                 read.places.target_x.shape[1],
@@ -94,6 +81,17 @@ class Bulletin(NamedTuple):
             fix = "watch with the same version of Shoal as the fleet's"
             raise MessageError("the fleet", f"says what cannot be read: {error}", fix) from None
         return read
+
+
+class Lookout(Protocol):
+    """What hears a fleet's beacon."""
+
+    @property
+    def over(self) -> bool:
+        """Whether the beacon is gone, and everything that it told was taken."""
+
+    def next(self, timeout: float) -> bytes | None:
+        """Return the newest message, each once; None if there is none after `timeout` [s]."""
 
 
 def bulletins(lookout: Lookout, timeout: float) -> Iterator[Bulletin | None]:

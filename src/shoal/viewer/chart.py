@@ -14,7 +14,7 @@ from shoal.record.trajectory import Trajectory
 from shoal.record.voyage.ais import names, positions
 from shoal.record.voyage.anchor import Anchor
 from shoal.record.voyage.voyages import Craft, Places, frames_of, voyages_of
-from shoal.run.facts import facts_of
+from shoal.run.facts import facts_of, facts_told
 from shoal.run.simulation import Simulation
 from shoal.viewer.broadcast import Broadcast
 from shoal.viewer.bulletin import Bulletin
@@ -77,7 +77,7 @@ def follow(bulletins: Iterator[Bulletin | None], broadcast: Broadcast, every: fl
         broadcast.wait(time.monotonic())
         if bulletin is None or not bulletin.frame:
             continue
-        facts, places = bulletin.facts, bulletin.places
+        facts, places = facts_told(bulletin.scene), bulletin.places
         now = bulletin.step * facts.time_step
         if now < due:
             continue

@@ -5,7 +5,6 @@ from collections.abc import Callable, Collection, Sequence
 
 from shoal.core.links import link_bytes
 from shoal.record.trajectory import Trajectory
-from shoal.run.facts import facts_of
 from shoal.run.simulation import Simulation
 from shoal.scenario.crew import crew_of
 from shoal.scenario.schema import Scenario
@@ -29,8 +28,7 @@ class Feed:
 
     def __init__(self, scenario: Scenario, speed: float | None, tell: Sequence[Callable[[Bulletin], None]]) -> None:
         self._tell = tell
-        self._facts = facts_of(scenario)
-        self._gauging = Gauging()
+        self._gauging = Gauging(scenario)
         self._due = 0.0
         scene = scene_of(scenario, crew_of(scenario).memory, has_links=link_bytes(scenario.agents) > 0)
         origin = scenario.area.origin
@@ -48,6 +46,6 @@ class Feed:
         if now < self._due:
             return
         self._due = now + EVERY
-        gauges = self._gauging.of(simulation, frame, self._facts)
+        gauges = self._gauging.of(simulation, frame)
         self._newest = self._newest._replace(frame=pack(frame, 0, run=0, epoch=0, gauges=gauges, silent=silent))
         self.say(None if simulation.number else self._newest.busy)  # step 0 is shown while buoys start

@@ -4,11 +4,12 @@ import math
 from collections import deque
 from typing import NamedTuple
 
-from shoal.metrics.contract import Facts
 from shoal.record.course import value_of
 from shoal.record.frames import moment_of
 from shoal.record.trajectory import Trajectory
+from shoal.run.facts import facts_of
 from shoal.run.simulation import Simulation
+from shoal.scenario.schema import Scenario
 from shoal.viewer.frame import RECENT, Gauges
 
 
@@ -21,19 +22,21 @@ class _Mark(NamedTuple):
 
 
 class Gauging:
-    """Reads gauges off a run, in the order of its steps."""
+    """Reads gauges off a run of a scenario, in the order of its steps."""
 
-    def __init__(self) -> None:
+    def __init__(self, scenario: Scenario) -> None:
+        self._facts = facts_of(scenario)
         self._before = _Mark(0, 0.0, 0.0)
         self._marks: deque[_Mark] = deque()
 
-    def begin_anew(self, simulation: Simulation) -> None:
-        """Note what was counted, before a run goes on as one whose sums are empty."""
-        self._before = self._sums(simulation)
+    def begin_anew(self, before: Simulation, scenario: Scenario) -> None:
+        """Note what was counted, before a run goes on as another, whose sums are empty."""
+        self._before = self._sums(before)
+        self._facts = facts_of(scenario)
 
-    def of(self, simulation: Simulation, shown: Trajectory, facts: Facts) -> Gauges:
+    def of(self, simulation: Simulation, shown: Trajectory) -> Gauges:
         """The gauges of a frame that a run would keep now."""
-        tally = simulation.tally
+        tally, facts = simulation.tally, self._facts
         moment = moment_of(shown, 0, facts)
         return Gauges(
             time_on_target=value_of("time_on_target", tally, facts),

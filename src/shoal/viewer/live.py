@@ -9,7 +9,6 @@ from shoal.core.errors import ScenarioError
 from shoal.core.links import link_bytes
 from shoal.run.carry_over import carry_over
 from shoal.run.compiling import mark_compiled
-from shoal.run.facts import facts_of
 from shoal.run.live_edits import move_target, remove_agent
 from shoal.run.simulation import Simulation
 from shoal.scenario.edit import apply
@@ -53,9 +52,7 @@ class LiveRun:
     def frame(self) -> bytes:
         """The bytes of the current frame."""
         shown = self.simulation.look()
-        return pack(
-            shown, 0, run=self.place, epoch=self._epoch, gauges=self._gauging.of(self.simulation, shown, self._facts)
-        )
+        return pack(shown, 0, run=self.place, epoch=self._epoch, gauges=self._gauging.of(self.simulation, shown))
 
     def scenario_with(self, changes: Mapping[str, Any]) -> tuple[Table, Scenario]:
         """Return table and scenario with some fields changed; nothing happens yet.
@@ -128,25 +125,24 @@ class LiveRun:
         simulation = Simulation(scenario)
         simulation.advance(0)  # compiles
         mark_compiled(scenario)
-        self._gauging = Gauging()
+        self._gauging = Gauging(scenario)
         self._settle(simulation)
 
     def _become(self, table: Table, simulation: Simulation) -> None:
         """Go on as a changed swarm."""
         simulation.advance(0)
         mark_compiled(simulation.scenario)
-        self._gauging.begin_anew(self.simulation)
+        self._gauging.begin_anew(self.simulation, simulation.scenario)
         self._table = table
         self._settle(simulation)
 
     def _settle(self, simulation: Simulation) -> None:
         self.simulation = simulation
         self._epoch += 1
-        self._facts = facts_of(simulation.scenario)
         scene = scene_of(
             simulation.scenario,
             simulation.memory_fields,
-            has_links=link_bytes(self._facts.agents) > 0,
+            has_links=link_bytes(simulation.scenario.agents) > 0,
             epoch=self._epoch,
             since=simulation.number,
         )
