@@ -21,16 +21,18 @@ def tick(limited):
     return Tick(7, 1, readings, chance.random(11) < 0.8, hears)
 
 
-def commands(width):
+def commands(width, agents=0):
     chance = np.random.default_rng(2)
-    return Commands(7, 0, np.array([2, 5], np.int32), chance.normal(size=(2, 2)), chance.normal(size=(2, width)))
+    wants, memory = chance.normal(size=(2, 2)), chance.normal(size=(2, width))
+    heard = chance.random((2, agents)) < 0.5 if agents else None
+    return Commands(7, 0, np.array([2, 5], np.int32), wants, memory, heard)
 
 
 def same(one, other):
     return type(one) is type(other) and all(np.array_equal(a, b) for a, b in zip(one, other, strict=True))
 
 
-@pytest.mark.parametrize("message", [tick(True), tick(False), commands(0), commands(3)])
+@pytest.mark.parametrize("message", [tick(True), tick(False), commands(0), commands(3), commands(3, 11)])
 def test_there_and_back(message):
     back = from_bytes(message.to_bytes())
     assert same(back, message)

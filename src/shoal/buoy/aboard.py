@@ -6,10 +6,12 @@ Every step in this order: `hear` what the mesh brought, `speak`, `hear` until en
 from collections.abc import Iterable, Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from shoal.buoy.buoy import Buoy
 from shoal.buoy.inbox import Inbox
 from shoal.buoy.tether import Commands, Tick, reading_of
+from shoal.core.links import MOST_LINKED
 from shoal.core.messages import Report
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
@@ -40,7 +42,7 @@ class Aboard:
         self.ids = tuple(ids)
         self.buoys = {id: Buoy(scenario, id, run=run) for id in ids}
         self._delay, self._interval = scenario.network.delay, scenario.report_steps
-        self._max_age = max_age
+        self._max_age, self._agents = max_age, scenario.agents
         kept = self._delay + self._interval + max_age
         self.inbox = Inbox(scenario.agents, crew_of(scenario).told, scenario.time_step, kept)
         self._before = {id: buoy.state for id, buoy in self.buoys.items()}
@@ -92,6 +94,15 @@ class Aboard:
             wants.append(buoy.wanted)
         self.inbox.forget(tick.step)
         return self._commands(tick, wants)
+
+    def links(self, ids: npt.NDArray[np.int32]) -> npt.NDArray[np.bool_] | None:
+        """Whom each of n buoys heard when it decided last, (n, N); None of more agents than links are kept of."""
+        if self._agents > MOST_LINKED:
+            return None
+        heard = np.zeros((len(ids), self._agents), np.bool_)
+        for row, id in zip(heard, ids.tolist(), strict=True):
+            row[[report.id for report in self.buoys[id].heard]] = True
+        return heard
 
     def spoken(self, step: int) -> int:
         """The step at which was said what is heard at a step, if nothing is late: that of the simulator's radio."""

@@ -42,6 +42,7 @@ class Buoy:
     briefing : what it is told before it leaves
     told : names of the fields that reports tell besides place, velocity and whether on target, for Report.from_bytes
     neighbors : k, to how many neighbors it listens; changes where the scenario lets k adapt
+    heard : the reports that it decided on last
     wanted : the velocity that its strategy wanted last [m/s], before its limits: for a body that knows them itself
 
     Raises
@@ -70,6 +71,7 @@ class Buoy:
         self._mind = _mind_of(crew, scenario.seed if seed is None else seed, run)
         self._begun = False
         self._contact = 0.0
+        self.heard: list[Report] = []
         self.wanted = (0.0, 0.0)
         if self._adaptive:
             everybody = scenario.agents - 1
@@ -150,7 +152,7 @@ class Buoy:
         """
         report = self.report(reading, step)
         me = self._own(reading, step)
-        heard = self._heard(me, inbox)
+        heard = self.heard = self._heard(me, inbox)
         with self._crew.naming_errors():
             try:
                 vx, vy = self._mind.decide(me, heard, step)

@@ -67,7 +67,8 @@ class Paced:
                 self._mesh.publish(report)
             self._listen(tick)
             self._note_ages(tick)
-            self._connection.send_bytes(self._aboard.act(tick).to_bytes())
+            said = self._aboard.act(tick)
+            self._connection.send_bytes(said._replace(heard=self._aboard.links(said.ids)).to_bytes())
             done = step
 
     def _attend(self, done: int) -> Note | None:

@@ -60,18 +60,24 @@ class Tick(NamedTuple):
 
 
 class Commands(NamedTuple):
-    """What n buoys want at a step: velocities (n, 2) [m/s] before their limits, and what they remember, (n, M)."""
+    """What n buoys want at a step: velocities (n, 2) [m/s] before their limits, and what they remember, (n, M).
+
+    heard : (n, N) whom each heard when it decided, for the record; None: as the sea has it
+    """
 
     step: int
     turn: int
     ids: npt.NDArray[np.int32]
     wants: npt.NDArray[np.float64]
     memory: npt.NDArray[np.float64]
+    heard: npt.NDArray[np.bool_] | None = None
 
     def to_bytes(self) -> bytes:
         """As they go to the sea."""
-        head = _HEAD.pack(_COMMANDS, self.step, self.turn, len(self.ids), self.memory.shape[1], 0)
-        return b"".join([head, *(np.ascontiguousarray(each).tobytes() for each in self[2:])])
+        agents = 0 if self.heard is None else self.heard.shape[1]
+        head = _HEAD.pack(_COMMANDS, self.step, self.turn, len(self.ids), self.memory.shape[1], agents)
+        parts = [self.ids, self.wants, self.memory, *([] if self.heard is None else [np.packbits(self.heard)])]
+        return b"".join([head, *(np.ascontiguousarray(each).tobytes() for each in parts)])
 
 
 class Note(NamedTuple):
@@ -101,13 +107,15 @@ def from_bytes(data: bytes) -> Tick | Commands | Note:
         if kind == _TICK:
             return _tick(step, turn, count, width, more, rest)
         if kind == _COMMANDS:
-            sizes = 4 * count, 16 * count, 8 * count * width
+            sizes = 4 * count, 16 * count, 8 * count * width, -(-count * more // 8)
             if len(rest) != sum(sizes):
                 raise ValueError("it has another length")
             ids = np.frombuffer(rest[: sizes[0]], "<i4")
             wants = np.frombuffer(rest[sizes[0] : sizes[0] + sizes[1]], "<f8").reshape(count, 2)
-            memory = np.frombuffer(rest[sizes[0] + sizes[1] :], "<f8").reshape(count, width)
-            return Commands(step, turn, ids, wants, memory)
+            memory = np.frombuffer(rest[sizes[0] + sizes[1] : sum(sizes[:3])], "<f8").reshape(count, width)
+            bits = np.unpackbits(np.frombuffer(rest[sum(sizes[:3]) :], np.uint8), count=count * more)
+            heard = bits.astype(bool).reshape(count, more) if more else None
+            return Commands(step, turn, ids, wants, memory, heard)
         raise ValueError("it is of no kind")
     except (ValueError, TypeError, IndexError, struct.error, RecursionError) as error:
         raise MessageError("tether", f"brought what is no message: {error}", "connect buoys and seas only") from error

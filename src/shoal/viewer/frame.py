@@ -8,7 +8,6 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.core.errors import MessageError
-from shoal.core.links import unpacked
 from shoal.record.trajectory import Trajectory
 from shoal.record.voyage.voyages import Places
 
@@ -39,7 +38,7 @@ class Gauges(NamedTuple):
 
 
 def pack(frames: Trajectory, at: int, *, run: int, epoch: int, gauges: Gauges, silent: Collection[int] = ()) -> bytes:
-    """Return the bytes of one frame of a trajectory; the silent neither hear nor are heard."""
+    """Return the bytes of one frame of a trajectory, in which some are silent."""
     size = frames.x.shape[1], frames.target_x.shape[1], frames.links.shape[2]
     frame = np.zeros((), _layout(*size))
     frame["format"], frame["run"], frame["epoch"] = FORMAT, run, epoch % 65536
@@ -55,10 +54,6 @@ def pack(frames: Trajectory, at: int, *, run: int, epoch: int, gauges: Gauges, s
     if silent:
         ids = np.fromiter(silent, np.int64, len(silent))
         frame["agent_bits"][ids] |= SILENT
-        if size[2]:
-            heard = unpacked(frame["links"])
-            heard[ids, :] = heard[:, ids] = False
-            frame["links"] = np.packbits(heard, axis=1, bitorder="little")
     return frame.tobytes()
 
 

@@ -44,12 +44,13 @@ class Log:
         self.silent: Collection[int] = ()
         self.notes: list[str] = []
         if onlooker:
-            ocean.on_step = lambda frame: onlooker(ocean.simulation, self._with_memory(frame), self.silent)
+            ocean.on_step = lambda frame: onlooker(ocean.simulation, self._as_buoys_have_it(frame), self.silent)
         self._ocean = ocean
         self._fields = crew_of(ocean.simulation.scenario).memory
         self._frames: list[Trajectory] = []
         self._wants: list[npt.NDArray[np.float64]] = []
         self._memory = np.zeros((ocean.simulation.scenario.agents, len(self._fields)))
+        self._heard: npt.NDArray[np.bool_] | None = None
         self._begun, self._started = perf_counter(), datetime.now(UTC)
 
     @property
@@ -61,14 +62,26 @@ class Log:
         """Note what buoys remember now, (n, M)."""
         self._memory[ids] = memory
 
+    def hear(self, ids: npt.NDArray[np.int32], heard: npt.NDArray[np.bool_] | None) -> None:
+        """Note whom buoys heard in the step that comes, (n, N); who decides nothing in it hears nobody."""
+        if heard is not None and heard.shape[1] == len(self._memory):
+            self._heard = np.zeros((len(self._memory),) * 2, np.bool_) if self._heard is None else self._heard
+            self._heard[ids] = heard
+
     def keep(self, frame: Trajectory) -> None:
         """Keep the frame of a step, which began with what buoys remembered; puppets remember what they want."""
         self._wants.append(np.stack([frame.memory["want_x"][0], frame.memory["want_y"][0]], axis=1))
-        self._frames.append(self._with_memory(frame))
+        self._frames.append(self._as_buoys_have_it(frame))
+        if self._heard is not None:
+            self._heard[:] = False
 
-    def _with_memory(self, frame: Trajectory) -> Trajectory:
+    def _as_buoys_have_it(self, frame: Trajectory) -> Trajectory:
+        """The sea's frame with what the buoys remember, and whom they heard if they said so."""
         memory = {name: self._memory[None, :, m].copy() for m, name in enumerate(self._fields)}
-        return replace(frame, memory=memory)
+        if self._heard is None or not frame.links.size:
+            return replace(frame, memory=memory)
+        heard = self._heard & frame.alive[0][:, None]
+        return replace(frame, memory=memory, links=np.packbits(heard, axis=1, bitorder="little")[None])
 
     def lose(self, step: int, ids: list[int]) -> None:
         """Note who was lost at a step."""

@@ -59,6 +59,7 @@ class PacedSea:
             answers = self._answers(self._begin + (ocean.number + 1) * self._period)
             for commands in answers:
                 ocean.obey(commands.ids, commands.wants)
+                self._log.hear(commands.ids, commands.heard)
             self._stop_the_silent()
             self._log.keep(ocean.advance())
             for commands in answers:
