@@ -4,7 +4,7 @@ import { el } from "./dom";
 import { count } from "./format";
 import { isAlive, isSilent, type Frame } from "./protocol";
 
-const NAMED = 24; // buoys, at most, in a list
+const NAMED = 24; // ranges, at most, in a list
 
 export class Roll {
   readonly root = el("section", { class: "card roll", "aria-label": "Fleet" });
@@ -35,8 +35,15 @@ export class Roll {
   }
 }
 
-function names(agents: number[]): string {
+/** Numbers of buoys in rising order, those in a row as a range: "no. 0–7, 12". */
+export function names(agents: number[]): string {
   if (agents.length === 0) return "none";
-  const more = agents.length - NAMED;
-  return agents.slice(0, NAMED).map((agent) => `no. ${agent}`).join(", ") + (more > 0 ? ` and ${count(more)} more` : "");
+  const rows: [number, number][] = [];
+  for (const agent of agents) {
+    const row = rows[rows.length - 1];
+    if (row && agent === row[1] + 1) row[1] = agent;
+    else rows.push([agent, agent]);
+  }
+  const shown = rows.slice(0, NAMED).map(([first, last]) => (first === last ? `${first}` : `${first}–${last}`));
+  return `no. ${shown.join(", ")}${rows.length > NAMED ? " …" : ""}`;
 }

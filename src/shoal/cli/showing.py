@@ -41,6 +41,7 @@ def showing(
     FleetError : an address that is none, or cannot be had
     MissingExtraError : a library is not installed
     """
+    from shoal.run.compiling import BUOYS, needs_compiling
     from shoal.viewer.feed import Feed
 
     tell: list[Callable[[Bulletin], None]] = []
@@ -58,7 +59,8 @@ def showing(
             yield None
             return
         feed = Feed(scenario, speed, tell)
-        feed.say(f"{scenario.agents} buoys start")
+        compiles = "the engine is compiled, which is done once; then " * needs_compiling(scenario, BUOYS)
+        feed.say(f"{compiles}{scenario.agents} buoys start")
         if outlook:
             stack.enter_context(serving_outlook(outlook, browser=browser))
 
