@@ -115,7 +115,13 @@ MUTANTS = {
         "len(self._wants) % 9 and self._frames.append",
         "every step",
     ),
-    "the log has another place": (Log, "keep", "memory=memory)", "memory=memory, x=frame.x + 1e-12)", "every frame"),
+    "the log has another place": (
+        Log,
+        "_as_buoys_have_it",
+        "memory=memory)",
+        "memory=memory, x=frame.x + 1e-12)",
+        "every frame",
+    ),
     "the log forgets who is lost": (Log, "lose", "self.lost +=", "_ =", "every loss"),
     "a restart keeps the inbox": (
         Vessel,
