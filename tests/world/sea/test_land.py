@@ -26,6 +26,17 @@ ISLAND = land(lambda x, y: np.hypot(x, y) - RADIUS)
 COAST = land(lambda x, y: 50.0 - y)  # land to the north of y = 50
 
 
+def lowest_along(land, a, b):
+    """The least distance to the shore along a line [m], bilinear, from 20,001 samples."""
+    share = np.linspace(0.0, 1.0, 20001)
+    x, y = ((a + share[:, None] * (b - a)).T - np.array([[land.x], [land.y]])) / land.cell
+    i, j = x.astype(int), y.astype(int)
+    right, up = x - i, y - j
+    low = (1 - right) * land.distance[j, i] + right * land.distance[j, i + 1]
+    high = (1 - right) * land.distance[j + 1, i] + right * land.distance[j + 1, i + 1]
+    return ((1 - up) * low + up * high).min()
+
+
 class TestClearance:
     def test_is_the_distance_to_the_shore(self):
         assert clearance(COAST, 12.3, -7.7) == pytest.approx(57.7, abs=1e-4)
@@ -36,15 +47,20 @@ class TestClearance:
         assert clearance(COAST, 0.0, -9000.0) == clearance(COAST, 0.0, -500.0)
 
     def test_room_is_never_longer(self):
+        """Not than the distance anywhere within half a block."""
         rng = np.random.default_rng(7)
-        for x, y in rng.uniform(-520.0, 520.0, (500, 2)):
-            rough, right = (
-                room_at(COAST, (x - COAST.x) * COAST.per_meter, (y - COAST.y) * COAST.per_meter),
-                clearance(COAST, x, y),
-            )
-            assert rough * right >= 0.0
-            assert abs(rough) <= abs(right)
-        assert room_at(COAST, -COAST.x / COAST.cell, (-400.0 - COAST.y) / COAST.cell) > 400.0
+        for shape in (COAST, ISLAND):
+            for x, y in rng.uniform(-520.0, 520.0, (500, 2)):
+                room = room_at(shape, (x - shape.x) * shape.per_meter, (y - shape.y) * shape.per_meter)
+                right = clearance(shape, *(np.array([x, y]) + rng.uniform(-2.0, 2.0, 2) * CELL))
+                assert room * right >= 0.0
+                assert abs(room) <= abs(right)
+
+    def test_room_is_of_use(self):
+        a = -COAST.x / COAST.cell
+        assert room_at(COAST, a, (-100.0 - COAST.y) / COAST.cell) >= 120.0
+        assert room_at(COAST, a, (200.0 - COAST.y) / COAST.cell) <= -120.0
+        assert room_at(COAST, a, (50.0 - COAST.y) / COAST.cell) == 0.0
 
     def test_open_water(self):
         assert clearance(no_land(), 1e5, -1e5) == 1e6
@@ -104,24 +120,41 @@ class TestSight:
         hidden = 0
         for _ in range(300):
             ends = rng.uniform(-400.0, 400.0, (2, 2))
-            seen, slack, _ = look_along(ISLAND, *ends.ravel(), True)
+            seen, slack, _ = look_along(ISLAND, *ends.ravel())
             hidden += not seen
             for _ in range(4):
                 angle = rng.uniform(0.0, 2 * math.pi, 2)
                 moved = ends + 0.999 * slack * np.stack((np.cos(angle), np.sin(angle)), axis=-1)
-                assert look_along(ISLAND, *moved.ravel(), False)[0] == seen
+                assert look_along(ISLAND, *moved.ravel())[0] == seen
         assert 30 < hidden < 270
+
+    def test_among_islands_no_sample_is_missed(self):
+        """Beyond what a line dips between two samples, a quarter of a cell apart: 0.18 cells."""
+        rng = np.random.default_rng(8)
+        middles = rng.uniform(-450.0, 450.0, (40, 2))
+        sizes = rng.uniform(5.0, 60.0, 40)
+        islands = land(
+            lambda x, y: (np.hypot(x[..., None] - middles[:, 0], y[..., None] - middles[:, 1]) - sizes).min(-1)
+        )
+        answers = []
+        for _ in range(400):
+            a, b = rng.uniform(-480.0, 480.0, (2, 2))
+            deepest = lowest_along(islands, a, b) / CELL + 0.5
+            seen = in_sight(islands, *a, *b)
+            assert deepest < 0.0 or seen
+            assert deepest > -0.18 or not seen
+            answers.append(seen)
+        assert 50 < sum(answers) < 350
 
     def test_both_see_each_other_or_neither(self):
         rng = np.random.default_rng(6)
         for _ in range(300):
             a, b = rng.uniform(-400.0, 400.0, (2, 2))
-            assert look_along(ISLAND, *a, *b, True) == look_along(ISLAND, *b, *a, True)
-            assert look_along(ISLAND, *a, *b, True)[0] == look_along(ISLAND, *a, *b, False)[0]
+            assert look_along(ISLAND, *a, *b) == look_along(ISLAND, *b, *a)
 
     def test_slack_is_of_use(self):
-        assert look_along(ISLAND, -300.0, 300.0, 300.0, 300.0, False)[1] > 50.0
-        assert look_along(ISLAND, -300.0, 0.0, 300.0, 0.0, True)[1] > 20.0
+        assert look_along(ISLAND, -300.0, 300.0, 300.0, 300.0)[1] > 50.0
+        assert look_along(ISLAND, -300.0, 0.0, 300.0, 0.0)[1] > 20.0
 
 
 class TestPlaces:

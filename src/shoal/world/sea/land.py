@@ -10,7 +10,8 @@ from shoal.compiler.kernel import kernel
 from shoal.core.draws import split, uniform
 
 OPEN_WATER = 1e6  # [m] to the shore where there is none
-BLOCK = 8  # cells along a side of a block
+BLOCK = 4  # cells along a side of a block
+_FARTHEST = 127  # half cells that a block tells of
 _TRIES = 64  # random places, before the nearest water is taken
 _REDRAWN = 1 << 22  # a purpose that nothing else draws for
 
@@ -20,12 +21,12 @@ class Land(NamedTuple):
 
     distance : (J, I) [m], above 0 at sea, below on land; x, y : of the middle of cell (0, 0) [m]; cell : its side [m]
     per_meter : cells in a meter
-    blocks : (J / BLOCK, I / BLOCK) the one nearest to 0 in a block of cells, 0 where it has both land and sea: so small
-        that it stays in a cache, which the raster does not
+    blocks : (J / BLOCK, I / BLOCK) the one nearest to 0 in a block of cells and half a block around, in half cells, 0
+        where there are both land and sea: so small that it stays in a cache, which the raster does not
     """
 
     distance: npt.NDArray[np.float32]
-    blocks: npt.NDArray[np.float32]
+    blocks: npt.NDArray[np.int8]
     x: float
     y: float
     cell: float
@@ -41,13 +42,20 @@ def land_of(distance: npt.ArrayLike, x: float, y: float, cell: float) -> Land:
     """Land of signed distances (J, I) [m] at the middles of cells of a side [m], the first of them at x, y [m]."""
     distance = np.ascontiguousarray(distance, np.float32)
     least, most = distance, distance
-    for axis in (0, 1):  # a place is between the middles of two cells: blocks share those at their edges
-        starts = np.arange(0, max(distance.shape[axis] - 1, 1), BLOCK)
-        ends = np.minimum(starts + BLOCK, distance.shape[axis] - 1)
-        least = np.minimum(np.minimum.reduceat(least, starts, axis), least.take(ends, axis))
-        most = np.maximum(np.maximum.reduceat(most, starts, axis), most.take(ends, axis))
-    blocks = np.where(least > 0.0, least, np.where(most < 0.0, most, np.float32(0.0)))
+    for axis in (0, 1):
+        least, most = _around_blocks(least, axis).min(-1), _around_blocks(most, axis).max(-1)
+    nearest = np.where(least > 0.0, least, np.where(most < 0.0, most, np.float32(0.0)))
+    blocks = np.clip(np.trunc(nearest * (2.0 / cell)), -_FARTHEST, _FARTHEST).astype(np.int8)
     return Land(distance, blocks, float(x), float(y), float(cell), 1.0 / cell)
+
+
+def _around_blocks(values: npt.NDArray[np.float32], axis: int) -> npt.NDArray[np.float32]:
+    """Views of all that is in each block along an axis, or half a block around it: in a new last axis."""
+    room = [(0, 0), (0, 0)]
+    room[axis] = (BLOCK // 2, BLOCK // 2 + BLOCK)
+    windows = np.lib.stride_tricks.sliding_window_view(np.pad(values, room, mode="edge"), 2 * BLOCK + 1, axis)
+    last = max(values.shape[axis] - 1, 1)  # a place is between the middles of two cells
+    return windows[:last:BLOCK] if axis == 0 else windows[:, :last:BLOCK]
 
 
 @kernel
@@ -83,15 +91,14 @@ def _cell(land, a, b):
 
 @kernel
 def room_at(land, a, b):
-    """What the distance to the shore is at least [m], or how far it is below 0 at least: roughly, where it is long.
+    """What the distance to the shore is at least [m], or how far below 0 at least, within half a block of a place.
 
-    a, b : a place in cells from the middle of the first one
+    0 where the shore is near, or may be. a, b : the place in cells from the middle of the first one
     """
     rows, columns = land.blocks.shape
     i = min(max(int(a), 0) // BLOCK, columns - 1)
     j = min(max(int(b), 0) // BLOCK, rows - 1)
-    rough = land.blocks[j, i]
-    return float(rough) if abs(rough) > BLOCK * land.cell else clearance_at(land, a, b)
+    return 0.5 * land.cell * land.blocks[np.uintp(j), np.uintp(i)]
 
 
 @kernel
@@ -119,7 +126,9 @@ def sailed(land, x, y, to_x, to_y):
     dx = to_x - x
     dy = to_y - y
     length = math.sqrt(dx * dx + dy * dy)
-    if clearance(land, x, y) > length + land.cell:
+    far = length + land.cell
+    a, b = (x - land.x) * land.per_meter, (y - land.y) * land.per_meter
+    if room_at(land, a, b) > far or clearance_at(land, a, b) > far:
         return to_x, to_y
     pieces = int(2.0 * length * land.per_meter) + 1  # of half a cell: nothing is jumped over
     dx /= pieces

@@ -12,15 +12,16 @@ import numpy.typing as npt
 
 from shoal.compiler.kernel import kernel
 from shoal.core.agents import Floats, aligned_zeros
-from shoal.world.sea.land import clearance_at, room_at
+from shoal.world.sea.land import BLOCK, clearance_at, room_at
 
 _STEEPEST = math.sqrt(2.0)  # how fast the distance between the middles of cells may change, at most
 _BLUNT = 0.5  # cells from the shore, on land, that do not hide: a raster knows the shore no better
-_SHORTEST = 0.25  # step along a line, in cells
-_SURE = 0.2  # cells that a line is below that so that no step leaps over it: more than SHORTEST / STEEPEST
+_SPLIT = 4  # samples of a stretch of a block's length are first a cell apart, where that is too rough a quarter
+_SURE = 0.2  # cells that a line is below that so that no two samples miss it: more than STEEPEST / 8
 _DEEP = 4.0  # cells below it: a line that is there is hidden for long enough
-_FAR = 16.0  # cells between places along a line that are tried first
-_TRIES = 32  # of them, at most
+_OPEN = 2.0  # cells to the shore that are room enough: how soon a line must be looked at again hardly matters
+_WIDE = 1.0  # the same, where a stretch is known from its ends
+_TIGHT = 0.2  # the same, where samples are a cell apart
 
 
 class Places(NamedTuple):
@@ -36,7 +37,6 @@ class Sight(NamedTuple):
 
     until : (N, L) how long the way of the first of a pair may grow before it must be looked at again [m], below 0: land
         hides the other; that of the second is in the other half
-    soonest : (N,) the least of each row [m]
     way : (N,) how far each has gone [m], and some
     x, y : (N,) where they were last [m]
     where : (N, L) how far along the line was land, 0 to 1: it is looked for there first
@@ -44,7 +44,6 @@ class Sight(NamedTuple):
     """
 
     until: Floats
-    soonest: Floats
     way: Floats
     x: Floats
     y: Floats
@@ -53,12 +52,12 @@ class Sight(NamedTuple):
 
 
 def new_sight(agents: int, lanes: int) -> Sight:
-    """Nothing is known, but that nobody hides from itself."""
+    """Nothing is known, but that nobody hides from itself, or in a lane that nobody is in."""
     until = aligned_zeros(agents * lanes).reshape((agents, lanes))
+    until[:, agents:] = np.inf
     np.fill_diagonal(until[:, :agents], np.inf)
     return Sight(
         until=until,
-        soonest=np.zeros(agents),
         way=np.ones(agents),
         x=np.zeros(agents),
         y=np.zeros(agents),
@@ -67,19 +66,43 @@ def new_sight(agents: int, lanes: int) -> Sight:
     )
 
 
+class Look(NamedTuple):
+    """What is known of a line: how far its deepest place is below what hides [m], and where, 0 to 1; its room [m].
+
+    deepest : 0 where nothing hides; slack : the least distance to the shore
+    """
+
+    deepest: float
+    there: float
+    slack: float
+
+
+class Line(NamedTuple):
+    """From (a, b) by (da, db), in cells; fall : how much the distance to the shore may change along a stretch [m]."""
+
+    a: float
+    b: float
+    da: float
+    db: float
+    fall: float
+
+
 @kernel
 def in_sight(land, x, y, other_x, other_y):
     """Whether no land lies between two places [m]; the same both ways. Cheap where both are far from the shore.
 
     Half a cell of land does not count: the places themselves may lie at the shore.
     """
-    seen, _, _ = look_along(land, x, y, other_x, other_y, True)
+    seen, _, _ = look_along(land, x, y, other_x, other_y)
     return seen
 
 
 @kernel
-def look_along(land, x, y, other_x, other_y, doubt):
-    """Look from the western of two places to the other; `doubt`: land is likely, a first try here and there finds it.
+def look_along(land, x, y, other_x, other_y):
+    """Look from the western of two places to the other: land hides where one of the samples along the line is on it.
+
+    Samples are at most a quarter of a cell apart. Which of them are looked at changes no answer: the others are too far
+    from the shore. Those looked at wait for no other, so that a processor can fetch them together.
 
     Returns
     -------
@@ -90,38 +113,75 @@ def look_along(land, x, y, other_x, other_y, doubt):
         x, y, other_x, other_y = other_x, other_y, x, y
     a, b = (x - land.x) * land.per_meter, (y - land.y) * land.per_meter
     da, db = (other_x - x) * land.per_meter, (other_y - y) * land.per_meter
-    distance = math.sqrt(da * da + db * db) * land.cell
-    blunt = _BLUNT * land.cell
-    free = clearance_at(land, a, b) + blunt
-    slack = 0.5 * (free + clearance_at(land, a + da, b + db) + blunt - _STEEPEST * distance)
+    length = math.sqrt(da * da + db * db)
+    stretches = int(length / BLOCK) + 1
+    share = 1.0 / stretches
+    line = Line(a, b, da, db, _STEEPEST * land.cell * length / stretches)
+    free, last = _free(land, line, 0.0), _free(land, line, 1.0)
+    slack = 0.5 * (free + last - line.fall * stretches)
     if slack > 0.0:
         return True, slack / _STEEPEST, 0.0
-    deepest = 0.0
-    there = 0.0
-    tries = min(int(distance / (_FAR * land.cell)), _TRIES) if doubt else 0
-    for number in range(tries):  # most of what is hidden is behind much land
-        share = (number + 0.5) / tries
-        after = room_at(land, a + share * da, b + share * db) + blunt
-        if after < deepest and after < -_SURE * land.cell:  # else a step may leap over it
-            deepest = after
-            there = share
-    slack = max(free, 0.0)
-    share = 0.0 if deepest >= -_DEEP * land.cell else 1.0
-    shortest, steps = _SHORTEST * land.cell, 1.0 / max(distance, 1e-9)
-    while share < 1.0:
-        step = max(abs(free) / _STEEPEST, shortest)
-        share = min(share + step * steps, 1.0)
-        after = room_at(land, a + share * da, b + share * db) + blunt
-        if after < deepest:
-            deepest = after
-            there = share
-            if deepest < -_DEEP * land.cell:
-                break
-        slack = min(slack, 0.5 * (free + after - _STEEPEST * step))
+    found = Look(min(free, 0.0), 0.0, np.inf)
+    known = 0  # free is that of the start of this stretch
+    for number in range(stretches):
+        middle = (number + 0.5) * share
+        room = room_at(land, a + middle * da, b + middle * db)
+        if room >= _OPEN * land.cell:
+            found = Look(found.deepest, found.there, min(found.slack, room))
+        elif room <= -land.cell:
+            if room + _BLUNT * land.cell < found.deepest:
+                found = Look(room + _BLUNT * land.cell, middle, 0.0)
+        else:
+            if known != number:
+                free = _free(land, line, number * share)
+            last = _free(land, line, (number + 1) * share)
+            found = _look_closely(land, line, number * share, share, free, last, found)
+            free, known = last, number + 1
+        if found.deepest < -_DEEP * land.cell:
+            break
+    if found.deepest < 0.0:
+        return False, max(-found.deepest - _SURE * land.cell, 0.0) / _STEEPEST, found.there
+    return True, max(found.slack, 0.0) / _STEEPEST, 0.0
+
+
+@kernel
+def _free(land, line, share):
+    """Distance to land that hides at a place along a line [m]."""
+    return clearance_at(land, line.a + share * line.da, line.b + share * line.db) + _BLUNT * land.cell
+
+
+@kernel
+def _look_closely(land, line, start, share, free, last, found):
+    """Look at a stretch that begins at `start` and is a `share` of the line; free, last : the distances at its ends."""
+    deepest, there, slack = found
+    if last < deepest:
+        deepest, there = last, start + share
+    low = 0.5 * (free + last - line.fall)
+    if low >= _WIDE * land.cell:
+        return Look(deepest, there, min(slack, low))
+    share /= _SPLIT
+    fall = line.fall / _SPLIT
+    for piece in range(_SPLIT):
+        after = last
+        if piece < _SPLIT - 1:
+            after = _free(land, line, start + (piece + 1) * share)
+            if after < deepest:
+                deepest, there = after, start + (piece + 1) * share
+        low = 0.5 * (free + after - fall)
+        if low < _TIGHT * land.cell and deepest >= 0.0:
+            low, before = np.inf, free
+            for number in range(1, _SPLIT + 1):
+                then = after
+                if number < _SPLIT:
+                    at = start + (piece + number / _SPLIT) * share
+                    then = _free(land, line, at)
+                    if then < deepest:
+                        deepest, there = then, at
+                low = min(low, 0.5 * (before + then - fall / _SPLIT))
+                before = then
+        slack = min(slack, low)
         free = after
-    if deepest < 0.0:
-        return False, max(-deepest - _SURE * land.cell, 0.0) / _STEEPEST, there
-    return True, max(slack, 0.0) / _STEEPEST, 0.0
+    return Look(deepest, there, slack)
 
 
 @kernel
@@ -130,7 +190,10 @@ def _still_hidden(land, x, y, other_x, other_y, share):
     if other_x < x or (other_x == x and other_y < y):
         x, y, other_x, other_y = other_x, other_y, x, y
     a, b = x + share * (other_x - x), y + share * (other_y - y)
-    depth = -room_at(land, (a - land.x) * land.per_meter, (b - land.y) * land.per_meter)
+    a, b = (a - land.x) * land.per_meter, (b - land.y) * land.per_meter
+    depth = -room_at(land, a, b)
+    if depth < _DEEP * land.cell:
+        depth = -clearance_at(land, a, b)
     return (depth - (_BLUNT + _SURE) * land.cell) / _STEEPEST
 
 
@@ -141,12 +204,18 @@ def hide_behind_land(links, sight, places, land, neighbors, first, agents):
     lanes = min(links.reach.size, agents - first)
     _go_on(sight, places, agents)
     for i in range(agents):
-        if sight.soonest[i] < sight.way[i]:
-            _look_around(sight, places, land, i, agents)
+        way = sight.way[i]
+        due = 0
+        for j in range(until.shape[1]):
+            due += 1 if abs(until[i, j]) < way else 0
+        if due > 0:
+            _look_around(sight, places, land, i, due)
     for j in range(agents):
         if hidden[j] > 0:
-            for i in range(lanes):
-                square[j, i] = np.inf if until[j, first + i] < 0.0 else square[j, i]
+            for i in range(lanes):  # unsigned: else it does not compile to vector code
+                behind = until[np.uintp(j), np.uintp(first + i)] < 0.0
+                was = square[np.uintp(j), np.uintp(i)]
+                square[np.uintp(j), np.uintp(i)] = np.inf if behind else was
     for i in range(links.wanted.size):
         links.wanted[i] = min(neighbors[first + i], agents - 1 - hidden[first + i]) if i < lanes else 0
 
@@ -161,24 +230,23 @@ def _go_on(sight, places, agents):
 
 
 @kernel
-def _look_around(sight, places, land, i, agents):
-    """Look from an agent at all others where that may have changed, as far as radios reach."""
+def _look_around(sight, places, land, i, due):
+    """Look from an agent at those others, `due` of them, where that may have changed, as far as radios reach."""
     until, way = sight.until, sight.way[i]
-    soonest = np.inf
-    for j in range(agents):
+    j = 0
+    while due > 0:
         if abs(until[i, j]) < way:
+            due -= 1
             before = 1 if until[i, j] < 0.0 else 0
             seen, slack = _looked(sight, places, land, i, j)
             sign = 1.0 if seen else -1.0
             until[i, j] = sign * (way + slack)
             until[j, i] = sign * (sight.way[j] + slack)
             sight.where[j, i] = sight.where[i, j]
-            sight.soonest[j] = min(sight.soonest[j], sight.way[j] + slack)
             change = (0 if seen else 1) - before
             sight.hidden[i] += change
             sight.hidden[j] += change
-        soonest = min(soonest, abs(until[i, j]))
-    sight.soonest[i] = soonest
+        j += 1
 
 
 @kernel
@@ -196,5 +264,5 @@ def _looked(sight, places, land, i, j):
         slack = _still_hidden(land, x, y, other_x, other_y, sight.where[i, j])
         if slack > 0.0:
             return False, slack
-    seen, slack, sight.where[i, j] = look_along(land, x, y, other_x, other_y, sight.until[i, j] <= 0.0)
+    seen, slack, sight.where[i, j] = look_along(land, x, y, other_x, other_y)
     return seen, slack
