@@ -16,8 +16,8 @@ from shoal.world.sea.land import BLOCK, clearance_at, room_at
 
 _STEEPEST = math.sqrt(2.0)  # how fast the distance between the middles of cells may change, at most
 _BLUNT = 0.5  # cells from the shore, on land, that do not hide: a raster knows the shore no better
-_SPLIT = 4  # samples of a stretch of a block's length are first a cell apart, where that is too rough a quarter
-_SURE = 0.2  # cells that a line is below that so that no two samples miss it: more than STEEPEST / 8
+_FINE = 8  # samples in a cell, where one is too rough
+_SURE = 0.1  # cells that a line is below that so that no two samples miss it: more than STEEPEST / 2 / FINE
 _DEEP = 4.0  # cells below it: a line that is there is hidden for long enough
 _OPEN = 2.0  # cells to the shore that are room enough: how soon a line must be looked at again hardly matters
 _WIDE = 1.0  # the same, where a stretch is known from its ends
@@ -101,7 +101,7 @@ def in_sight(land, x, y, other_x, other_y):
 def look_along(land, x, y, other_x, other_y):
     """Look from the western of two places to the other: land hides where one of the samples along the line is on it.
 
-    Samples are at most a quarter of a cell apart. Which of them are looked at changes no answer: the others are too far
+    Samples are at most an eighth of a cell apart. Which of them are looked at changes no answer: the others are too far
     from the shore. Those looked at wait for no other, so that a processor can fetch them together.
 
     Returns
@@ -159,25 +159,25 @@ def _look_closely(land, line, start, share, free, last, found):
     low = 0.5 * (free + last - line.fall)
     if low >= _WIDE * land.cell:
         return Look(deepest, there, min(slack, low))
-    share /= _SPLIT
-    fall = line.fall / _SPLIT
-    for piece in range(_SPLIT):
+    share /= BLOCK
+    fall = line.fall / BLOCK
+    for piece in range(BLOCK):
         after = last
-        if piece < _SPLIT - 1:
+        if piece < BLOCK - 1:
             after = _free(land, line, start + (piece + 1) * share)
             if after < deepest:
                 deepest, there = after, start + (piece + 1) * share
         low = 0.5 * (free + after - fall)
         if low < _TIGHT * land.cell and deepest >= 0.0:
             low, before = np.inf, free
-            for number in range(1, _SPLIT + 1):
+            for number in range(1, _FINE + 1):
                 then = after
-                if number < _SPLIT:
-                    at = start + (piece + number / _SPLIT) * share
+                if number < _FINE:
+                    at = start + (piece + number / _FINE) * share
                     then = _free(land, line, at)
                     if then < deepest:
                         deepest, there = then, at
-                low = min(low, 0.5 * (before + then - fall / _SPLIT))
+                low = min(low, 0.5 * (before + then - fall / _FINE))
                 before = then
         slack = min(slack, low)
         free = after
