@@ -1,9 +1,11 @@
 """Deliberate breaks of what a fleet runs on, each in a piece of one line, for tests/run/fleet/test_soak.py."""
 
+from shoal.buoy import orderbook
 from shoal.buoy.aboard import Aboard
 from shoal.buoy.buoy import Buoy
 from shoal.buoy.compiled import CompiledMind
 from shoal.buoy.inbox import Inbox
+from shoal.buoy.orderbook import Orderbook
 from shoal.core import messages
 from shoal.run.fleet.log import Log
 from shoal.run.fleet.ocean import Ocean
@@ -12,6 +14,27 @@ from shoal.run.fleet.vessel import Vessel
 
 # Who is broken, in which piece of its source, what stands there instead, and words of the invariant that must see it.
 MUTANTS = {
+    "forged orders are obeyed": (
+        orderbook,
+        "opened",
+        "hmac.compare_digest(seal, _seal(kind, text, key))",
+        "seal",
+        "obeys",
+    ),
+    "orders of another fleet are obeyed": (Orderbook, "take", "said.fleet != self._fleet", "False", "obeys"),
+    "orders are obeyed again": (
+        Orderbook,
+        "take",
+        "elif said.number <= self._last:",
+        "elif False:",
+        "obeys",
+    ),
+    "void orders are obeyed": (Orderbook, "take", "<= now <= said.until", "<= now", "obeys"),
+    "orders from the future are obeyed": (Orderbook, "take", "said.number / 1e9 - AHEAD <=", "0.0 <=", "obeys"),
+    "an order is obeyed by all": (Orderbook, "_ordered", "or id in order.agents", "or True", "obeys"),
+    "an order is obeyed a step too soon": (Aboard, "attend", "tick.step + 1", "tick.step", "obeys"),
+    "orders are not passed on": (Orderbook, "take", "passed_on(data, passed + 1), *own", "*own", "passed on"),
+    "who holds drifts on": (Buoy, "_as_ordered", "return 0.0, 0.0", "return vx / 2, vy / 2", "who holds"),
     "the age rule is a step longer": (Inbox, "newest", "step - max_age)", "step - max_age - 1)", "too old"),
     "the age rule is a step shorter": (Inbox, "newest", "step - max_age)", "step - max_age + 1)", "k nearest"),
     "reports of the next step are heard": (Inbox, "newest", "step + 1)", "step + 2)", "from the future"),

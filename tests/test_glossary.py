@@ -28,8 +28,8 @@ progress projected published quantity range read reason recorded reproduce resam
 running said saved scaled schema scored seek seen self sensing sensitivity sensor server setting several shoal show
 side signal simulate simulation size stamp startup statement statistic stop stopped strategy style suited summary
 swept table text thought tide top tree turn uniform unknown varied vehicle version view virtual wanted watch watched
-waiting weight word writer xml datagram port serial stream unready aboard killing late note paced process serve term
-tied zenoh
+waiting weight word writer xml datagram port serial stream unready aboard attend killing late letter note obedient paced
+process serve storm term tied zenoh
 """  # words that mean what any dictionary says, and file formats
 PLAIN = frozenset(DICTIONARY.split())
 KINDS = [*TARGETS, *DISTURBANCES]

@@ -9,6 +9,7 @@ import pytest
 from scenarios import changed
 from shoal.metrics.summary import METRICS
 from shoal.run.simulation import Simulation
+from shoal.scenario.commands import Command
 from shoal.scenario.disturbances import DISTURBANCES
 from shoal.scenario.load import load, read_table, scenario_from
 from shoal.scenario.presence import Join, Loss
@@ -53,7 +54,7 @@ class TestExamples:
 class TestCompleteness:
     """Nothing that a scenario can say is left out."""
 
-    @pytest.mark.parametrize("model", [Network, AdaptiveDegree, Loss, Join])
+    @pytest.mark.parametrize("model", [Network, AdaptiveDegree, Loss, Join, Command])
     def test_every_field_of_networks_and_failures(self, model):
         assert [name for name in model.model_fields if name not in page("disturbances")] == []
 

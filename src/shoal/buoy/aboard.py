@@ -4,15 +4,19 @@ Every step in this order: `hear` what the mesh brought, `speak`, `hear` until en
 """
 
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 
 import numpy as np
 import numpy.typing as npt
 
 from shoal.buoy.buoy import Buoy
 from shoal.buoy.inbox import Inbox
+from shoal.buoy.orderbook import Orderbook
 from shoal.buoy.tether import Commands, Tick, reading_of
+from shoal.core.errors import ShoalError
 from shoal.core.links import MOST_LINKED
 from shoal.core.messages import Report
+from shoal.scenario.commands import Command
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
 
@@ -29,8 +33,9 @@ class Aboard:
 
     Attributes
     ----------
-    ids : as given
+    ids : as given; present : those of them that are there
     inbox : what reached them
+    orderbook : the orders that did; None: they have no key, and obey none that comes over the mesh
 
     Raises
     ------
@@ -39,7 +44,10 @@ class Aboard:
 
     def __init__(self, scenario: Source, ids: Sequence[int], *, run: int = 0, max_age: int = 0) -> None:
         scenario = load(scenario)
-        self.ids = tuple(ids)
+        self.ids = self.present = tuple(ids)
+        self.orderbook: Orderbook | None = None
+        self._ordered: list[Command] = []
+        self.unread = 0  # orders that came without a key to open them
         self.buoys = {id: Buoy(scenario, id, run=run) for id in ids}
         self._delay, self._interval = scenario.network.delay, scenario.report_steps
         self._max_age, self._agents = max_age, scenario.agents
@@ -72,6 +80,42 @@ class Aboard:
         said = self.inbox.newest(self.spoken(tick.step), self._max_age)
         return {id: self.inbox.step_of(report) for id, report in said.items()}
 
+    def attend(self, messages: Iterable[bytes], tick: Tick, now: float) -> list[bytes]:
+        """Take orders that the mesh brought, to be obeyed from the next step on; return what is to be published.
+
+        Parameters
+        ----------
+        messages : what arrived; tick : the present step; now : [s since 1970]
+        """
+        self.present = tuple(tick.readings["id"].tolist())
+        if self.orderbook is None:
+            self.unread += sum(1 for _ in messages)
+            return []
+        return [each for data in messages for each in self.orderbook.take(data, self, tick.step + 1, now)]
+
+    def refusal(self, command: Command, id: int) -> str | None:
+        """Why a buoy cannot obey a command; None if it can."""
+        try:
+            self.buoys[id].check(command)
+        except ShoalError as error:
+            where, problem, _ = error.args
+            return f"{where}: {problem}"
+        return None
+
+    def order(self, command: Command) -> None:
+        """Let buoys that are here obey from the command's step on."""
+        self._ordered.append(command)
+
+    def _obey(self, step: int) -> None:
+        """Obey what came over the mesh until a step."""
+        due = [command for command in self._ordered if command.step <= step]
+        self._ordered = [command for command in self._ordered if command.step > step]
+        for command in due:
+            for id in command.agents:
+                self.buoys[id].follow(command.step)  # what the scenario tells them at this step comes first
+                with suppress(ShoalError):  # what another order of this step has made impossible
+                    self.buoys[id].obey(command)
+
     def missing(self, tick: Tick) -> set[int]:
         """Whose reports of a step have not arrived."""
         if tick.step % self._interval:
@@ -79,7 +123,8 @@ class Aboard:
         return self.inbox.missing(tick.step, np.flatnonzero(tick.alive).tolist())
 
     def act(self, tick: Tick) -> Commands:
-        """What they want at a step, from what they measure and hear."""
+        """What they want at a step, from what they measure and hear, and are told to do."""
+        self._obey(tick.step)
         self._before = {int(id): self.buoys[int(id)].state for id in tick.readings["id"]}
         then = self.spoken(tick.step)
         said = self.inbox.newest(then, self._max_age)

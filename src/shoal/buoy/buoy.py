@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable
+from functools import reduce
 from typing import Any, NamedTuple
 
 from shoal.buoy.plain import NO_TRUTH, PlainMind
@@ -10,9 +11,13 @@ from shoal.compiler.late import compiles
 from shoal.core.errors import MessageError, StrategyError
 from shoal.core.messages import Own, Reading, Report
 from shoal.scenario.briefing import briefing, degrees, fleet_of
+from shoal.scenario.commands import Command
 from shoal.scenario.crew import Crew, crew_of
+from shoal.scenario.instructions import changed
 from shoal.scenario.load import Source, load
+from shoal.scenario.schema import Scenario
 from shoal.world.motion import maneuvered, speed_scale
+from shoal.world.orders import homeward
 from shoal.world.radio import degree_of, first_degree
 
 
@@ -43,7 +48,9 @@ class Buoy:
     told : names of the fields that reports tell besides place, velocity and whether on target, for Report.from_bytes
     neighbors : k, to how many neighbors it listens; changes where the scenario lets k adapt
     heard : the reports that it decided on last
-    wanted : the velocity that its strategy wanted last [m/s], before its limits: for a body that knows them itself
+    wanted : the velocity that its strategy, or the order that it is under, wanted last [m/s], before its limits: for a
+        body that knows them itself
+    under : the order that it is under, hold or recall; or resume, which is none
 
     Raises
     ------
@@ -68,8 +75,17 @@ class Buoy:
         self._time_step = scenario.time_step
         self._divide = scenario.motion.speed_rule == "divide"
         self._adaptive = scenario.network.adaptive
-        self._mind = _mind_of(crew, scenario.seed if seed is None else seed, run)
+        self._seed, self._run = scenario.seed if seed is None else seed, run
+        self._mind = _mind_of(crew, self._seed, run)
         self._begun = False
+        self._scenario = scenario
+        self._commands = sorted(
+            (each for each in scenario.commands if id in (each.agents or (id,))), key=lambda each: each.step
+        )
+        self._followed = 0  # the step until which it has obeyed the scenario's commands
+        self._sets: tuple[dict[str, Any], ...] = ()
+        self.under = "resume"
+        self._home = (0.0, 0.0)
         self._contact = 0.0
         self.heard: list[Report] = []
         self.wanted = (0.0, 0.0)
@@ -87,7 +103,8 @@ class Buoy:
     @property
     def state(self) -> tuple[Any, ...]:
         """All that changes in it, to go back to by `restore`, or to go on from after a restart."""
-        return tuple(self._mind.remembered().values()), self.neighbors, self._contact
+        memory = tuple(self._mind.remembered().values())
+        return memory, self.neighbors, self._contact, self.under, self._home, self._sets, self._followed
 
     def restore(self, state: tuple[Any, ...]) -> None:
         """Be as it was when it had this state.
@@ -96,9 +113,57 @@ class Buoy:
         ----------
         state : what `state` was
         """
-        memory, self.neighbors, self._contact = state
+        memory, neighbors, self._contact, self.under, self._home, sets, self._followed = state
+        if sets != self._sets:
+            self._go_by(sets)
+        self.neighbors = neighbors
         self._mind.recall(memory)
         self._begun = True
+
+    def obey(self, command: Command) -> None:
+        """Be under a command from now on, whatever its step is; those that the scenario has it obeys by itself.
+
+        Parameters
+        ----------
+        command : shoal.scenario.commands.Command
+
+        Raises
+        ------
+        ScenarioError : it sets a field that cannot change on the way, or a value that it cannot have
+        """
+        if command.set:
+            self._go_by((*self._sets, command.set))
+        else:
+            self.under = str(command.order)
+
+    def check(self, command: Command) -> None:
+        """Refuse a command that cannot be obeyed.
+
+        Parameters
+        ----------
+        command : shoal.scenario.commands.Command
+
+        Raises
+        ------
+        ScenarioError : see `obey`
+        """
+        if command.set:
+            self._after((*self._sets, command.set))
+
+    def _after(self, sets: tuple[dict[str, Any], ...]) -> Scenario:
+        """The scenario with fields set, one command after the other."""
+        return reduce(changed, sets, self._scenario)
+
+    def _go_by(self, sets: tuple[dict[str, Any], ...]) -> None:
+        """Decide by the scenario with these fields set."""
+        scenario = self._after(sets)
+        memory = tuple(self._mind.remembered().values())
+        self._crew = crew_of(scenario)
+        self._mind = _mind_of(self._crew, self._seed, self._run)
+        self._mind.recall(memory)
+        self._sets = sets
+        if not self._adaptive:
+            self.neighbors = degrees(scenario, self._crew)[self.fleet]
 
     def begin(self, reading: Reading) -> None:
         """Set up the memory before the first step; `decide` and `report` do so if it was not done.
@@ -108,6 +173,7 @@ class Buoy:
         reading : what its instruments say where it lies; only the position counts
         """
         start = Reading(reading.x, reading.y, 0.0, 0.0, False)
+        self._home = float(reading.x), float(reading.y)
         with self._crew.naming_errors():
             self._mind.begin(self._own(start, 0))
         self._begun = True
@@ -151,6 +217,7 @@ class Buoy:
         StrategyError : its strategy cannot be compiled, raises an error, or wants what is not finite
         """
         report = self.report(reading, step)
+        self.follow(step)
         me = self._own(reading, step)
         heard = self.heard = self._heard(me, inbox)
         with self._crew.naming_errors():
@@ -162,6 +229,7 @@ class Buoy:
             problem = f"strategy {self._crew.name!r} wanted a velocity that is not finite, in step {step}"
             raise StrategyError(self._crew.source, problem, "guard divisions, roots and logarithms")
         self._adapt(me, heard)
+        vx, vy = self._as_ordered(me, vx, vy)
         self.wanted = vx, vy
         return Decision(*self._limited(me, vx, vy), report)
 
@@ -204,6 +272,28 @@ class Buoy:
             self._contact += min(1.0, self._time_step / self._adaptive.patience) * (contact - self._contact)
             self.neighbors = _degree_of(self._contact, self._fewest, self._most)
 
+    def follow(self, step: int) -> None:
+        """Obey the commands of the scenario up to a step; `decide` does so by itself.
+
+        Parameters
+        ----------
+        step : number of the step, from 0
+        """
+        for command in self._commands:
+            if self._followed < command.step <= step:
+                self.obey(command)
+        self._followed = max(self._followed, step)
+
+    def _as_ordered(self, me: Own, vx: float, vy: float) -> tuple[float, float]:
+        """What it wants, under the order that it is under; it senses, reports and remembers as under none."""
+        if self.under == "hold":
+            return 0.0, 0.0
+        if self.under == "recall":
+            turn, change = math.radians(self._make.max_turn_rate or math.inf), self._make.max_acceleration or math.inf
+            away = self._home[0] - me.x, self._home[1] - me.y
+            vx, vy = _homeward(*away, me.max_speed, change, turn, self._time_step)
+        return vx, vy
+
     def _limited(self, me: Own, vx: float, vy: float) -> tuple[float, float]:
         """A velocity within what the buoy can do."""
         make = self._make
@@ -224,5 +314,5 @@ def _mind_of(crew: Crew, seed: int, run: int) -> Any:
 
 
 # Of the world's formulas, the plain functions: one number takes longer to hand to compiled code than to work out.
-_first_degree, _degree_of = plain(first_degree), plain(degree_of)
+_first_degree, _degree_of, _homeward = plain(first_degree), plain(degree_of), plain(homeward)
 _maneuvered, _speed_scale = plain(maneuvered), plain(speed_scale)

@@ -3,6 +3,7 @@
 from multiprocessing.connection import Connection
 
 from shoal.buoy.aboard import Aboard
+from shoal.buoy.attend import attend
 from shoal.buoy.mesh import Mesh
 from shoal.buoy.tether import BEGIN, Commands, Note, Tick, from_bytes
 
@@ -61,6 +62,7 @@ class Lockstep:
             aboard.hear(self._mesh.take(_LOOK), tick.step)
             if self._connection.poll(0):
                 return self._next()
+        attend(aboard, self._mesh, self._connection, tick)
         self._send(aboard.act(tick))
         return None
 

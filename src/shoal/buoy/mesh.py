@@ -1,19 +1,27 @@
 """A mesh: what one buoy, or a process of several, publishes reaches all others that are there, itself included."""
 
 import queue
+from contextlib import suppress
 from typing import Protocol
-
-_SOON = 1e-9
 
 
 class Mesh(Protocol):
-    """What carries reports. It promises nothing: what it brings may be late, repeated, reordered, damaged or lost."""
+    """What carries reports, and orders beside them.
+
+    It promises nothing: what it brings may be late, repeated, reordered, damaged or lost.
+    """
 
     def publish(self, data: bytes) -> None:
         """Send a message to all who are there."""
 
     def take(self, timeout: float) -> list[bytes]:
         """Return what arrived since the last call; if nothing did, wait for it as long as `timeout` [s]."""
+
+    def order(self, data: bytes) -> None:
+        """Send an order, or an answer to one, to all who are there."""
+
+    def orders(self, timeout: float) -> list[bytes]:
+        """Return the orders and answers that arrived since the last call, as `take` does."""
 
     def alive(self) -> int:
         """Return how many nodes are there, this one included."""
@@ -23,14 +31,25 @@ class Mesh(Protocol):
 
 
 def drained(arrived: "queue.SimpleQueue[bytes]", timeout: float) -> list[bytes]:
-    """Return what is in a queue; if nothing is, wait for it as long as `timeout` [s]."""
+    """Return what is in a queue; if nothing is, wait for it as long as `timeout` [s].
+
+    Only whoever has just found it empty may wait: of a queue whose lock is free, `get` takes the lock first, and if its
+    time is over by then it waits for ever (CPython 3.11).
+    """
+    found = _in(arrived)
+    if not found and timeout > 0.0:
+        with suppress(queue.Empty):
+            found.append(arrived.get(timeout=timeout))
+            found += _in(arrived)
+    return found
+
+
+def _in(arrived: "queue.SimpleQueue[bytes]") -> list[bytes]:
     found: list[bytes] = []
-    try:
-        found.append(arrived.get(timeout=max(timeout, _SOON)))
+    with suppress(queue.Empty):
         while True:
             found.append(arrived.get_nowait())
-    except queue.Empty:
-        return found
+    return found
 
 
 class MemoryMesh:
@@ -44,6 +63,7 @@ class MemoryMesh:
     def __init__(self, nodes: "list[MemoryMesh]") -> None:
         self._nodes = nodes
         self._arrived: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+        self._orders: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         nodes.append(self)
 
     def publish(self, data: bytes) -> None:
@@ -54,6 +74,15 @@ class MemoryMesh:
     def take(self, timeout: float) -> list[bytes]:
         """Return what arrived since the last call; if nothing did, wait for it as long as `timeout` [s]."""
         return drained(self._arrived, timeout)
+
+    def order(self, data: bytes) -> None:
+        """Send an order, or an answer to one, to all who are there."""
+        for node in self._nodes:
+            node._orders.put(data)
+
+    def orders(self, timeout: float) -> list[bytes]:
+        """Return the orders and answers that arrived since the last call, as `take` does."""
+        return drained(self._orders, timeout)
 
     def alive(self) -> int:
         """Return how many nodes are there, this one included."""

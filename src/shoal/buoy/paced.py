@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from shoal.buoy.aboard import Aboard
+from shoal.buoy.attend import attend
 from shoal.buoy.mesh import Mesh
 from shoal.buoy.tether import BEGIN, Note, Tick, from_bytes
 
@@ -67,6 +68,7 @@ class Paced:
                 self._mesh.publish(report)
             self._listen(tick)
             self._note_ages(tick)
+            attend(self._aboard, self._mesh, self._connection, tick)
             said = self._aboard.act(tick)
             self._connection.send_bytes(said._replace(heard=self._aboard.links(said.ids)).to_bytes())
             done = step

@@ -10,8 +10,10 @@ from typing import Any
 from shoal.buoy.aboard import Aboard
 from shoal.buoy.lockstep import Lockstep
 from shoal.buoy.mesh import Mesh
+from shoal.buoy.orderbook import Orderbook
 from shoal.buoy.paced import Paced
 from shoal.buoy.tether import Note, from_bytes
+from shoal.buoy.trust import NOBODY, Trust, read_key
 from shoal.buoy.zenoh_mesh import ZenohMesh
 from shoal.core.errors import FleetError, MessageError
 from shoal.core.messages import Reading
@@ -21,7 +23,7 @@ KEY = "SHOAL_FLEET_KEY"  # of the environment: what proves to the sea that a buo
 _MEETING = 240.0  # seconds in which all nodes of a mesh find each other: many processes start slowly
 
 
-def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: bytes) -> None:
+def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: bytes, trust: Trust = NOBODY) -> None:
     """Run some buoys of a fleet until the sea that they are tied to says that it is over, or is gone.
 
     Parameters
@@ -30,6 +32,7 @@ def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: b
     ids : which agents run here
     address : host and port of the sea
     key : what proves that they belong to it
+    trust : whose orders they obey, and whom they hear
 
     Raises
     ------
@@ -38,6 +41,7 @@ def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: b
     MissingExtraError : zenoh is not installed
     """
     scenario = load(scenario)
+    command_key = read_key(trust.command_key) if trust.command_key else None
     where = f"{address[0]}:{address[1]}"
     try:
         connection = Client(address, authkey=key)
@@ -52,7 +56,10 @@ def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: b
             welcome = _note(connection, where, "welcome")
             aboard = Aboard(scenario, ids, run=welcome["run"], max_age=welcome["max_age"])
             _warm(aboard)
-            mesh = ZenohMesh(welcome["fleet"], str(min(ids)), connect=welcome["connect"], listen=welcome["listen"])
+            if command_key:
+                aboard.orderbook = Orderbook(scenario, welcome["fleet"], command_key, time.time())
+            places = {"connect": welcome["connect"], "listen": welcome["listen"]}
+            mesh = ZenohMesh(welcome["fleet"], str(min(ids)), **places, config=trust.mesh_config)
             try:
                 _meet(mesh, welcome["nodes"], connection)
                 _say(connection, "ready")
@@ -84,6 +91,7 @@ def _work(
         seconds=time.monotonic() - begun,
         memory=_memory(),
         counts=dict(aboard.inbox.counts),
+        orders=dict(aboard.orderbook.counts) if aboard.orderbook else {"unread": aboard.unread},
         **facts,
     )
 

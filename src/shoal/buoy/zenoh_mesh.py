@@ -4,11 +4,13 @@ import atexit
 import json
 import queue
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 from shoal.buoy.mesh import drained
 from shoal.core.errors import FleetError, MissingExtraError
 
+ANY = "shoal/*"  # the name of every mesh
 _PATIENCE = 60_000  # milliseconds in which a busy machine may open a link
 _RETRY = {"period_init_ms": 200, "period_max_ms": 2_000, "period_increase_factor": 1.5}  # of links that broke, too
 
@@ -20,26 +22,26 @@ class ZenohMesh:
 
     Parameters
     ----------
-    fleet : what the mesh is called; those of another name are not heard
-    node : what this node is called
+    fleet : what the mesh is called; those of another name are not heard. ANY : of a guest, who hears all
+    node : what this node is called; None: a guest, who is no node, and gives orders and hears answers only
     connect : addresses of nodes to connect to, such as tcp/127.0.0.1:7447; they need not be there yet
     listen : address to listen at; the default can be reached from this machine only, on a free port
-    config : more of zenoh's own configuration, by its paths, such as {"transport/link/tls/root_ca_certificate": FILE}
+    config : file of zenoh's own configuration, such as certificates; what is said above counts more
 
     Raises
     ------
     MissingExtraError : zenoh is not installed
-    FleetError : an address cannot be used
+    FleetError : an address or the configuration cannot be used
     """
 
     def __init__(
         self,
         fleet: str,
-        node: str,
+        node: str | None,
         *,
         connect: Sequence[str] = (),
         listen: str = "tcp/127.0.0.1:0",
-        config: dict[str, Any] | None = None,
+        config: str | Path | None = None,
     ) -> None:
         zenoh = _zenoh("a mesh between processes")
         wanted: dict[str, Any] = {
@@ -48,14 +50,17 @@ class ZenohMesh:
             "connect/retry": _RETRY,
             "transport/unicast/open_timeout": _PATIENCE,
             "transport/unicast/accept_timeout": _PATIENCE,
-            **(config or {}),
         }
         self._arrived: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+        self._orders: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         self._nodes: set[str] = set()
+        self._order_key = f"{fleet}/orders"
         try:
-            self._session = zenoh.open(_settings([listen], connect, wanted))
+            self._session = zenoh.open(_settings([listen], connect, wanted, config))
             atexit.register(self.close)  # Python would wait for its threads for ever
-            self._heard = self._session.declare_subscriber(f"{fleet}/reports", self._take_in)
+            self._told = self._session.declare_subscriber(self._order_key, self._take_order)
+            if node is not None:
+                self._heard = self._session.declare_subscriber(f"{fleet}/reports", self._take_in)
             self._publisher = self._session.declare_publisher(
                 f"{fleet}/reports",
                 congestion_control=zenoh.CongestionControl.BLOCK,
@@ -65,7 +70,8 @@ class ZenohMesh:
             self._watch = self._session.liveliness().declare_subscriber(
                 f"{fleet}/alive/*", self._take_note, history=True
             )
-            self._token = self._session.liveliness().declare_token(f"{fleet}/alive/{node}")
+            if node is not None:
+                self._token = self._session.liveliness().declare_token(f"{fleet}/alive/{node}")
         except zenoh.ZError as error:
             where = ", ".join([listen, *connect])
             problem = f"cannot be a mesh: {_words(error)}"
@@ -73,6 +79,9 @@ class ZenohMesh:
 
     def _take_in(self, sample: Any) -> None:
         self._arrived.put(bytes(sample.payload))
+
+    def _take_order(self, sample: Any) -> None:
+        self._orders.put(bytes(sample.payload))
 
     def _take_note(self, sample: Any) -> None:
         """Somebody came, or is gone."""
@@ -89,6 +98,18 @@ class ZenohMesh:
     def take(self, timeout: float) -> list[bytes]:
         """Return what arrived since the last call; if nothing did, wait for it as long as `timeout` [s]."""
         return drained(self._arrived, timeout)
+
+    def order(self, data: bytes) -> None:
+        """Send an order, or an answer to one, to all who are there."""
+        self._session.put(self._order_key, data)
+
+    def orders(self, timeout: float) -> list[bytes]:
+        """Return the orders and answers that arrived since the last call, as `take` does."""
+        return drained(self._orders, timeout)
+
+    def fleets(self) -> set[str]:
+        """Return the names of the meshes whose nodes are there."""
+        return {name.partition("/alive/")[0] for name in self._nodes}
 
     def alive(self) -> int:
         """Return how many nodes are there, this one included."""
@@ -139,9 +160,11 @@ def _zenoh(purpose: str) -> Any:
     return zenoh
 
 
-def _settings(listen: Sequence[str], connect: Sequence[str], more: dict[str, Any]) -> Any:
+def _settings(
+    listen: Sequence[str], connect: Sequence[str], more: dict[str, Any], config: str | Path | None = None
+) -> Any:
     """The configuration of a peer that finds nobody by itself."""
-    settings = _zenoh("").Config()
+    settings = _configured(config)
     wanted: dict[str, Any] = {
         "mode": "peer",
         "listen/endpoints": list(listen),
@@ -157,3 +180,28 @@ def _settings(listen: Sequence[str], connect: Sequence[str], more: dict[str, Any
 
 def _words(error: Exception) -> str:
     return " ".join(str(error).split())[:200]
+
+
+def protocol_of(config: str | Path | None) -> str:
+    """Return how the links of a mesh with this configuration go: by tls if it has certificates, else by tcp.
+
+    Raises
+    ------
+    MissingExtraError : zenoh is not installed
+    FleetError : the configuration cannot be used
+    """
+    if config is None:
+        return "tcp"
+    tls = json.loads(_configured(config).get_json("transport/link/tls")) or {}
+    return "tls" if any(tls.get(f"{name}_certificate") for name in ("root_ca", "listen", "connect")) else "tcp"
+
+
+def _configured(config: str | Path | None) -> Any:
+    zenoh = _zenoh("a mesh between processes")
+    if config is None:
+        return zenoh.Config()
+    try:
+        return zenoh.Config.from_file(str(config))
+    except zenoh.ZError as error:
+        problem = f"is no configuration of zenoh: {' '.join(str(error).split())[:200]}"
+        raise FleetError(str(config), problem, "see docs/how-to/fleet.md for one") from None

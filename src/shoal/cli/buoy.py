@@ -3,6 +3,7 @@
 import os
 import re
 import sys
+from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
@@ -15,6 +16,8 @@ def buoy(
     id_: Annotated[str, Parameter(name="--id")],
     connect: str,
     plain: Annotated[bool, Parameter(negative=())] = False,
+    command_key: Path | None = None,
+    mesh_config: Path | None = None,
 ) -> None:
     """Run one buoy of a fleet, or several: decide by what its instruments say and what the others report.
 
@@ -30,6 +33,10 @@ def buoy(
         Address of the sea, HOST:PORT, as `shoal fleet` gives it to the buoys that it starts.
     plain
         Decide without a compiler: it starts at once, with a third of the memory.
+    command_key
+        File of the key that orders must be sealed with (see `shoal command`); without it none is obeyed.
+    mesh_config
+        File of zenoh's own configuration (JSON5), such as certificates.
     """
     if plain:
         sys.modules["numba"] = None  # type: ignore[assignment]  # Python's way to say: not there
@@ -38,6 +45,7 @@ def buoy(
 
         load_compiler()
     from shoal.buoy.serve import KEY, serve
+    from shoal.buoy.trust import Trust
     from shoal.core.errors import FleetError
     from shoal.core.text import quoted
 
@@ -53,4 +61,4 @@ def buoy(
     if not re.fullmatch(r"([0-9a-fA-F]{2}){8,64}", key):
         problem = "is no key" if key else "holds no key"
         raise FleetError(f"${KEY}", problem, "set it to the key of the fleet, in hex")
-    serve(scenario, ids, (host, int(port)), bytes.fromhex(key))
+    serve(scenario, ids, (host, int(port)), bytes.fromhex(key), Trust(command_key, mesh_config))

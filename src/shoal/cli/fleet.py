@@ -43,6 +43,8 @@ def fleet(
     watch: Annotated[bool, Parameter(negative=())] = False,
     browser: bool = True,
     listen: str | None = None,
+    command_key: Path | None = None,
+    mesh_config: Path | None = None,
     out: Path | None = None,
     figure: Path | None = None,
     json_: Annotated[bool, Parameter(name="--json", negative=())] = False,
@@ -96,6 +98,10 @@ def fleet(
     listen
         Where `shoal watch --fleet` and `shoal chart --fleet` find it, HOST:PORT, or none; port 0 is a free one. Default
         127.0.0.1:0, which can be reached from this machine only; with --mesh memory none.
+    command_key
+        Obey orders of `shoal command` that are sealed with the key in this file, which is made if it is not there.
+    mesh_config
+        File of zenoh's own configuration (JSON5), such as certificates.
     out
         Save the record, of every step, to this new folder.
     figure
@@ -104,6 +110,7 @@ def fleet(
         Print one JSON object and nothing else.
     """
     load_compiler()
+    from shoal.buoy.trust import Trust
     from shoal.run.compiling import BUOYS
     from shoal.run.fleet.run_fleet import Terms, check_terms, run_fleet
     from shoal.scenario.load import scenario_from
@@ -119,7 +126,7 @@ def fleet(
     }
     check_places(out, figure)
     chosen = scenario_from(edited_table(scenario, changes, assignments or [], target_track, track_id), where=scenario)
-    terms = Terms(processes, lockstep, speed, tuple(kill or ()), mesh, max_age, plain)
+    terms = Terms(processes, lockstep, speed, tuple(kill or ()), mesh, max_age, plain, Trust(command_key, mesh_config))
     check_terms(chosen, terms)
     paced = None if terms.in_lockstep else terms.speed or 1.0
     where = listen or (NOWHERE if mesh == "memory" else "127.0.0.1:0")
@@ -127,7 +134,14 @@ def fleet(
         tell_of_compiling(chosen, BUOYS)
         note(f"{chosen.agents} buoys start (Ctrl-C ends the run, and keeps what was done)")
         with progress_bar(f"{chosen.name}, {chosen.agents} buoys, {chosen.steps:,} steps") as progress:
-            record = run_fleet(chosen, terms, out=out, progress=progress, onlooker=show.feed.see if show else None)
+            record = run_fleet(
+                chosen,
+                terms,
+                out=out,
+                progress=progress,
+                onlooker=show.feed.see if show else None,
+                tell=lambda place: note(f"orders: shoal command {place} hold --key {command_key}"),
+            )
         if show:
             show.end()
         _tell(record, out, figure, json_)

@@ -23,6 +23,7 @@ app = App(
 app.command("shoal.cli.run:run", name="run", help="Run a scenario and print its metrics.")
 app.command("shoal.cli.fleet:fleet", name="fleet", help="Run the buoys themselves, in a stand-in for the sea.")
 app.command("shoal.cli.buoy:buoy", name="buoy", help="Run one buoy of a fleet: what runs on a vehicle.")
+app.command("shoal.cli.command:command", name="command", help="Give buoys of a fleet an order, and say who obeys.")
 app.command("shoal.cli.show:show", name="show", help="Print the table of a saved record, and draw its figure.")
 app.command("shoal.cli.film:film", name="film", help="Make a film or a still of a record or a scenario.")
 app.command("shoal.cli.watch:watch", name="watch", help="Watch a run in the browser, and change it as it goes.")
@@ -56,7 +57,8 @@ def run_command(tokens: list[str]) -> int:
         if any("\0" in token for token in tokens):
             raise ShoalError("command line", "holds a NUL", "leave it out")
         with guarded_stdout():
-            app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
+            code = app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
+            return code if type(code) is int else 0
     except CycloptsError as error:
         tell(readable(f"{_one_line(error)}\n  fix: see `shoal{_verb(tokens)} --help`"))
         return BAD_INPUT

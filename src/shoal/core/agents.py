@@ -30,6 +30,7 @@ class Bodies(NamedTuple):
     drift_x, drift_y : what nature added to its velocity in the last step [m/s]; aground : whether land stopped it then
     fix_x, fix_y : where it believes to be; the arrays x, y themselves where everybody knows
     error_x, error_y : how far that is off [m]; spent : taken from its battery so far [J]
+    order : which it is under, see world/orders.py; home_x, home_y : where it believed to be when it set out
     memory, told : (L, fields) what agents remember, and what of it they tell; the strategy sees them as `Memories`
     """
 
@@ -54,6 +55,9 @@ class Bodies(NamedTuple):
     error_x: Floats
     error_y: Floats
     spent: Floats
+    order: npt.NDArray[np.int64]
+    home_x: Floats
+    home_y: Floats
     memory: Floats
     told: Floats
 
@@ -191,6 +195,9 @@ def new_swarm(
         error_x=np.zeros(lanes),
         error_y=np.zeros(lanes),
         spent=np.zeros(lanes),
+        order=np.zeros(lanes, np.int64),
+        home_x=np.zeros(lanes),
+        home_y=np.zeros(lanes),
         share_end=np.zeros(lanes),
         station_x=np.zeros(lanes),
         station_y=np.zeros(lanes),

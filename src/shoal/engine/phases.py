@@ -44,6 +44,7 @@ from shoal.world.motion import (
     slow_down,
 )
 from shoal.world.neighbors import count_heard, link_nearest, measure_distances, rank_heard, settle_ties
+from shoal.world.orders import obey
 from shoal.world.position import age_errors, locate
 from shoal.world.presence import update_presence
 from shoal.world.radio import (
@@ -180,6 +181,8 @@ def move_agents(stage, number, first, batch, key):
     measure_links(tally, Step(number, batch, first), world, swarm, part(stage, TARGETS), scratch)
     if radio.adaptive:
         adapt_degree(swarm, radio, scratch.links, said(radio, swarm, number), first, there, world)
+    if world.ordered:
+        obey(swarm, world.time_step, first, there)
     if world.inertial:
         limit_maneuver(swarm, first, there, world.time_step)
     limit_speed(command_x, command_y, swarm.max_speed[first:last], world.divide)

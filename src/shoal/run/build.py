@@ -52,6 +52,7 @@ def build_world(scenario: Scenario, sea: Sea) -> World:
         flowing=sea.currents.kind != STILL or sea.wind.kind != STILL,
         windy=sea.wind.kind != STILL and any(fleet.windage for fleet in fleets),
         coastal=sea.shore.distance.size > 1,
+        ordered=False,
         target_radius=min(target.radius for target in scenario.targets),
     )
 

@@ -31,6 +31,7 @@ def carry_over(old: Simulation, scenario: Scenario, origin: npt.ArrayLike | None
     """
     new = Simulation(scenario, old.run)
     new.number = old.number
+    new.catch_up()
     came_from = np.arange(scenario.agents) if origin is None else np.asarray(origin, np.int64)
     here = np.flatnonzero((came_from >= 0) & (came_from < old.scenario.agents))
     there = came_from[here]

@@ -24,12 +24,15 @@ from shoal.run.build import build_nature, build_radio, build_swarm, build_target
 from shoal.run.facts import roster_of
 from shoal.run.sea import build_sea
 from shoal.run.state import State, arrays_of, read_only, state_of
+from shoal.run.timetable import Timetable
 from shoal.scenario.assumptions import assumptions
 from shoal.scenario.at_sea import open_sea
+from shoal.scenario.commands import Command
 from shoal.scenario.crew import Crew, crew_of
 from shoal.scenario.load import Source, load
 from shoal.scenario.on_track import open_tracks
 from shoal.scenario.stations import stations
+from shoal.world.orders import ORDERS
 from shoal.world.placement import PLACES
 
 _set_out: Any = set_out  # kernels have no types that mypy sees
@@ -69,6 +72,8 @@ class Simulation:
         self.run = run
         self.number = 0
         self.crew = crew or crew_of(scenario)
+        self._first_crew, self._decided_here = self.crew, crew is None
+        self._timetable = Timetable(scenario)
         self.memory_fields = self.crew.memory
         opened = open_sea(scenario)
         tracks = open_tracks(scenario)
@@ -106,6 +111,7 @@ class Simulation:
         lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
         with plugin_errors():
             _set_out(self._placed.address, starts, lifetimes, losses_of(scenario))
+        self._swarm.home_x[:], self._swarm.home_y[:] = self._swarm.fix_x, self._swarm.fix_y
         self.roster = roster_of(self._swarm, scenario.agents, self.crew)
         self.begin()
         self._settle()
@@ -134,16 +140,26 @@ class Simulation:
         """
         if steps < 0:
             raise ScenarioError("advance", f"is asked for {steps} steps", "time goes forward: ask for 0 or more")
-        first, last = self.number, self.number + steps
-        if every is None:
-            self._placed = self._in_place(self._placed)
-            self._roll(self._placed, first, last, NEVER, NEVER)
-            return None
-        tail = NEVER if tail is None else tail
-        self._keep_frames()
-        frames = self._new_frames(count_frames(first, last, every, tail))
-        self._roll(Placed(self._stage(frames)), first, last, every, tail)
-        return Trajectory.from_frames(frames, self.memory_fields) if frames.step.size else None
+        legs = []
+        for stop in self._timetable.stops(self.number, self.number + steps):
+            legs.append(self._leg(stop, every, NEVER if tail is None else tail))
+            self._follow_commands()
+        kept = [leg for leg in legs if leg is not None]
+        return Trajectory.join(kept) if len(kept) > 1 else next(iter(kept), None)
+
+    def order(self, command: Command) -> None:
+        """Let agents be under a command that the scenario does not have, from its step on; from now on if that is past.
+
+        Parameters
+        ----------
+        command : what they are told
+
+        Raises
+        ------
+        ScenarioError : it sets a field that cannot change on the way, or a value that it cannot have
+        """
+        self._timetable.add(command)
+        self._follow_commands()
 
     def look(self) -> Trajectory:
         """Return the current frame (K = 1), as the coming step would keep it. Nothing is changed.
@@ -194,8 +210,16 @@ class Simulation:
         for name, array in arrays_of(self._state):
             array[...] = saved[name] if name in saved else never_counted(array, name.removeprefix("tally."))
         self.number = int(saved["number"])
+        self.catch_up()
         self.notes += [_note_of(name, self.state().get(name)) for name in lone]
         self._settle()
+
+    def catch_up(self) -> None:
+        """Go by what has been set until now, after `number` was set from outside; orders are part of the state."""
+        self._timetable = Timetable(self.scenario)
+        self.crew = self._first_crew
+        if any(command.set for command in self._timetable.due(self.number)):
+            self._go_by(self._state)
 
     @property
     def radio(self) -> Any:
@@ -209,10 +233,41 @@ class Simulation:
 
     def _settle(self) -> None:
         """Make the state true after a change; where everybody is always there, the engine leaves a lot out."""
+        if not self.world.ordered and self._swarm.order.any():
+            self.world = self.world._replace(ordered=True)
         if not self.world.mortal and (self._swarm.leaves < NEVER).any():
             self.world = self.world._replace(mortal=True)
             self._radio = self._radio._replace(limited=True)
         self.advance(0)
+
+    def _leg(self, last: int, every: int | None, tail: int) -> Trajectory | None:
+        """Run to a step; return the frames that are kept."""
+        if every is None:
+            self._placed = self._in_place(self._placed)
+            self._roll(self._placed, self.number, last, NEVER, NEVER)
+            return None
+        self._keep_frames()
+        frames = self._new_frames(count_frames(self.number, last, every, tail))
+        self._roll(Placed(self._stage(frames)), self.number, last, every, tail)
+        return Trajectory.from_frames(frames, self.memory_fields) if frames.step.size else None
+
+    def _follow_commands(self) -> None:
+        """Obey what is to be obeyed from the coming step on."""
+        for command in self._timetable.due(self.number):
+            with self.edit() as now:
+                if command.set:
+                    self._go_by(now)
+                elif self._decided_here:  # whoever decides outside obeys there
+                    now.swarm.order[command.among(self.scenario.agents)] = ORDERS.index(str(command.order))
+
+    def _go_by(self, now: State) -> None:
+        """Let agents go by what is set now."""
+        instructions = self._timetable.instructions
+        if instructions is not None:
+            if not self.radio.adaptive:
+                now.swarm.neighbors[: self.scenario.agents] = instructions.degrees(self.crew)
+            if self._decided_here:
+                self.crew = instructions.crew(self.crew)
 
     def _roll(self, placed: Placed, first: int, last: int, every: int, tail: int) -> None:
         """Run steps first..last on a stage.

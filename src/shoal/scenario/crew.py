@@ -81,14 +81,19 @@ def crew_of(scenario: Scenario) -> Crew:
     rest = [field for owner in owners for field in owner.memory]
     return Crew(
         strategies=owners,
-        params=_team(choices, scenario.counts),
+        params=crew_params(choices, scenario.counts),
         memory=tuple(dict.fromkeys([*told, *rest])),
         told=told,
     )
 
 
-def _team(choices: list[StrategyChoice], counts: list[int]) -> Any:
-    """Parameters of one strategy if all fleets follow it alike, of nested teams if not."""
+def crew_params(choices: list[StrategyChoice], counts: list[int]) -> Any:
+    """Parameters of one strategy if all follow it alike, of nested teams if not: what `counts` agents each choose.
+
+    Raises
+    ------
+    ScenarioError : too many teams
+    """
     params = choices[-1].kernel_params()
     until = sum(counts)
     for fleet in range(len(choices) - 2, -1, -1):

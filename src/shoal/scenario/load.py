@@ -18,6 +18,7 @@ from shoal.core.errors import ScenarioError, StrategyError, did_you_mean
 from shoal.core.text import cut, quoted
 from shoal.scenario import disturbances, targets
 from shoal.scenario.battery import Battery
+from shoal.scenario.commands import Command
 from shoal.scenario.disturbances import DISTURBANCES
 from shoal.scenario.frozen import MOST_ENTRIES, plain
 from shoal.scenario.presence import Join, Loss
@@ -347,7 +348,7 @@ def _dotted(path: Sequence[Any]) -> str:
 def _known_fields(path: tuple[Any, ...], table: Mapping[str, Any]) -> list[str]:
     """Names that are valid beside the last part of a path."""
     models: dict[str, Any] = {"area": Area, "fleets": Fleet, "network": Network, "motion": Motion}
-    models |= {"losses": Loss, "joins": Join, "sea": Sea}
+    models |= {"losses": Loss, "joins": Join, "commands": Command, "sea": Sea}
     if len(path) < 2:
         return list(Scenario.model_fields)
     if "strategy" in path[:-1]:

@@ -46,6 +46,9 @@ def multiplied(scenario: Scenario, factors: Mapping[str, float]) -> dict[str, An
 
     factors : {SI unit: factor}; others stay
     """
+    if any(".neighbors" not in f".{path}" for command in scenario.commands for path in command.set):
+        problem = "set parameters of strategies, which keep their size"
+        raise ScenarioError("commands", problem, "leave them out, and add them to the scaled scenario")
     table: dict[str, Any] = scenario.model_dump(mode="json")
     _multiply(scenario, table, factors)
     return table

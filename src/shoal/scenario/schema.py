@@ -21,6 +21,7 @@ from shoal.core.units import (
 )
 from shoal.scenario.battery import Battery, check_battery
 from shoal.scenario.choices import headline
+from shoal.scenario.commands import Command
 from shoal.scenario.disturbances import Disturbance
 from shoal.scenario.durations import Steps, with_whole_steps
 from shoal.scenario.frozen import MOST_ENTRIES, Chance, Count, Frozen, Name, NotNegative, Positive
@@ -203,6 +204,9 @@ class Scenario(Frozen):
     joins: tuple[Join, ...] = Field(default=(), max_length=MOST_ENTRIES, description="agents that join during the run")
     disturbances: tuple[Disturbance, ...] = Field(
         default=(), max_length=MOST_ENTRIES, description="what disturbs agents and targets during the run"
+    )
+    commands: tuple[Command, ...] = Field(
+        default=(), max_length=MOST_ENTRIES, description="what agents are told during the run"
     )
     sea: Sea | None = Field(default=None, description="currents, wind and land; default: still, open water")
 
@@ -448,6 +452,20 @@ class Scenario(Frozen):
             if fleet.strategy:
                 vars(fleet)["strategy"] = fleet.strategy.at(scales)
         vars(self).update(fleets=fleets, strategy=self.strategy.at(scales))
+        return self
+
+    @model_validator(mode="after")
+    def _commands_can_be_obeyed(self) -> Self:
+        for number, command in enumerate(self.commands):
+            if any(agent >= self.agents for agent in command.agents):
+                raise ValueError(
+                    f"commands.{number}.agents has {max(command.agents)}, but agents are 0 to {self.agents - 1}; "
+                    "correct it"
+                )
+        if type(self) is Scenario and any(command.set for command in self.commands):  # a record's loads nothing
+            from shoal.scenario.instructions import check_commands  # which needs this class
+
+            check_commands(self)
         return self
 
 

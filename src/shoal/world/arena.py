@@ -16,7 +16,7 @@ class World(NamedTuple):
     disturbed : there are disturbances; it is imperfect and mortal then, too
     inexact : agents do not know quite where they are; powered : they have batteries
     flowing : there are currents or wind; windy : wind, and agents that it moves
-    coastal : there is land, or a limit to where agents may go
+    coastal : there is land, or a limit to where agents may go; ordered : agents are under orders
     target_radius : of the smallest target
     """
 
@@ -38,4 +38,5 @@ class World(NamedTuple):
     flowing: bool
     windy: bool
     coastal: bool
+    ordered: bool
     target_radius: float

@@ -16,6 +16,13 @@ TEAM = [
     {"name": "slow", "count": 35, "max_speed": 1.0, "strategy": "knn-pso", "max_acceleration": 4.0},
 ]
 POOR = {"sensor_radius": 0.5, "detection_probability": 0.7, "false_alarm_probability": 0.05, "position_error": 0.2}
+ORDERS = [
+    {"step": 10, "order": "hold", "agents": [0, 3, 49]},
+    {"step": 20, "set": {"neighbors": 5}, "agents": [7, 8, 9]},
+    {"step": 20, "order": "recall"},
+    {"step": 50, "order": "resume", "agents": [3, 7]},
+    {"step": 60, "set": {"neighbors": 9}},
+]
 RADIO = {"neighbors": 12, "range": 7.0, "loss": 0.2, "delay": 2, "interval": 0.3}
 
 
@@ -30,6 +37,8 @@ RADIO = {"neighbors": 12, "range": 7.0, "loss": 0.2, "delay": 2, "interval": 0.3
         {"fleets": [{**make, **POOR} for make in TEAM]},
         {"losses": [{"step": 20, "count": 5}], "joins": [{"step": 40, "count": 3, "fleet": "BoB-0"}]},
         {"disturbances": [{"kind": "current", "east": 0.5}, {"kind": "blackout", "since": 2.0, "until": 4.0}]},
+        {"commands": ORDERS},
+        {"commands": ORDERS, "network": RADIO, "fleets": [{**make, **POOR} for make in TEAM]},
         {"sea": {"coast": [[[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]]]}},  # hides from radios of any range
     ],
     ids=[
@@ -41,6 +50,8 @@ RADIO = {"neighbors": 12, "range": 7.0, "loss": 0.2, "delay": 2, "interval": 0.3
         "team",
         "changes",
         "disturbed",
+        "ordered",
+        "ordered-team-with-poor-radios",
         "land",
     ],
 )

@@ -1,5 +1,6 @@
 """What must be true of a fleet at every step, worked out from what was done to it and not from what it did."""
 
+import math
 from collections import Counter
 from typing import Any
 
@@ -188,14 +189,21 @@ def _accuse(thought: Thought, wanted: list[Truth], k: int, steps: tuple[int, int
     raise BrokenInvariantError("what is heard is what was said", f"{who} heard {heard}, not {wanted}"[:400])
 
 
-def check_commands(commands: Commands, thoughts: list[Thought]) -> None:
-    """What goes to the bodies is what was decided, and finite.
+def check_commands(commands: Commands, thoughts: list[Thought], under: dict[int, str]) -> None:
+    """What goes to the bodies is what was decided, or what a buoy wants under an order, and finite.
 
     Raises
     ------
     BrokenInvariantError : it is not
     """
     demand("commands are decisions", commands.ids.tolist(), [each.me.id for each in thoughts])
-    demand("commands are decisions", commands.wants.tolist(), [list(each.wants) for each in thoughts])
+    for wants, each in zip(commands.wants.tolist(), thoughts, strict=True):
+        order = under.get(each.me.id, "resume")
+        if order == "hold":
+            demand("who holds wants nothing", wants, [0.0, 0.0])
+        elif order == "recall":
+            demand("nobody comes home faster than its make", math.hypot(*wants) <= each.me.max_speed + 1e-9, True)
+        else:
+            demand("commands are decisions", wants, list(each.wants))
     if not np.isfinite(commands.wants).all():
         raise BrokenInvariantError("every number is finite", f"wanted are {commands.wants}"[:300])

@@ -1,6 +1,6 @@
 """What a fleet did, as a record: every step, who was lost when, and what went wrong on the way."""
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -17,7 +17,9 @@ from shoal.run.facts import facts_of
 from shoal.run.fleet.ocean import Ocean
 from shoal.run.simulate import provenance
 from shoal.run.simulation import Simulation
+from shoal.scenario.commands import Command
 from shoal.scenario.crew import crew_of
+from shoal.scenario.frozen import MOST_ENTRIES
 from shoal.scenario.presence import Loss
 from shoal.scenario.schema import Scenario
 
@@ -36,12 +38,14 @@ class Log:
     ----------
     lost : step and number of every buoy that was lost and that the scenario does not lose
     silent : who is there and says nothing, by number
+    commands : what buoys were told on their way beside the scenario's, and obeyed
     notes : what else is to be told
     """
 
     def __init__(self, ocean: Ocean, onlooker: Onlooker | None = None) -> None:
         self.lost: list[tuple[int, int]] = []
         self.silent: Collection[int] = ()
+        self.commands: list[Command] = []
         self.notes: list[str] = []
         if onlooker:
             ocean.on_step = lambda frame: onlooker(ocean.simulation, self._as_buoys_have_it(frame), self.silent)
@@ -87,6 +91,15 @@ class Log:
         """Note who was lost at a step."""
         self.lost += [(step, id) for id in ids]
 
+    def heed(self, facts: dict[str, Any]) -> None:
+        """Note what buoys say of an order: that they obey it, or why not."""
+        if "refused" in facts:
+            self.notes.append(str(facts["refused"]))
+        else:
+            command = Command.model_validate(facts["command"])
+            self.commands.append(command)
+            self._ocean.order(command)
+
     def record(self, notes: list[str], out: Path | None = None) -> Record:
         """Return the record of the steps done, and write it to a new folder.
 
@@ -97,9 +110,10 @@ class Log:
         RecordError : the folder exists or cannot be written
         """
         planned = self._ocean.simulation
-        scenario = as_it_was(planned.scenario, self._ocean.leaves, self.lost, self.steps)
+        scenario = as_it_was(planned.scenario, self._ocean.leaves, self.lost, self.steps, self.commands)
         tally = planned.tally if scenario.steps == planned.scenario.steps else self._counted_again(scenario)
-        about = provenance(scenario, self._started, perf_counter() - self._begun, [*planned.notes, *self.notes, *notes])
+        said = [*planned.notes, *self.notes, *map(_told, together(self.commands, scenario.agents)), *notes]
+        about = provenance(scenario, self._started, perf_counter() - self._begun, said)
         frames = {planned.run: Trajectory.join(self._frames)}
         record = Record(scenario, facts_of(scenario), planned.roster, (tally,), about, frames)
         if out is None:
@@ -117,12 +131,40 @@ class Log:
         return again.simulation.tally
 
 
-def as_it_was(scenario: Scenario, leaves: npt.NDArray[np.int64], lost: list[tuple[int, int]], steps: int) -> Scenario:
+def together(commands: list[Command], agents: int) -> list[Command]:
+    """Commands to the buoys of several processes as one, where they are alike and of one step."""
+    found: dict[tuple[int, str], list[Command]] = {}
+    for command in commands:
+        found.setdefault((command.step, command.words), []).append(command)
+    joined = []
+    for alike in found.values():
+        ids = sorted({id for command in alike for id in command.agents})
+        joined.append(alike[0].model_copy(update={"agents": [] if len(ids) == agents else ids}))
+    return joined
+
+
+def _told(command: Command) -> str:
+    who = f"buoy {', '.join(map(str, command.agents))}" if command.agents else "all"
+    return f"ordered by mesh, from step {command.step:,} on: {command.words}: {who}"
+
+
+def as_it_was(
+    scenario: Scenario,
+    leaves: npt.NDArray[np.int64],
+    lost: list[tuple[int, int]],
+    steps: int,
+    commands: Sequence[Command] = (),
+) -> Scenario:
     """The scenario that does in the simulator what the fleet did: these agents are lost, so many steps are done.
+
+    What buoys were told on their way are commands of it, as many as a scenario can have.
 
     Where any are lost, those that the scenario loses by lot are named, too: fewer would take part in the lots.
     """
     changes: dict[str, Any] = {"steps": steps}
+    if commands:
+        told = [*scenario.commands, *together(list(commands), scenario.agents)][:MOST_ENTRIES]
+        changes["commands"] = tuple(sorted(told, key=lambda command: command.step))
     if lost:
         gone = {id for _, id in lost}
         meant = {loss.step for loss in scenario.losses}

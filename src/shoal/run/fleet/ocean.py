@@ -10,6 +10,7 @@ from shoal.core.errors import FleetError, ScenarioError, StrategyError
 from shoal.core.links import MOST_LINKED, unpacked
 from shoal.record.trajectory import Trajectory
 from shoal.run.simulation import Simulation
+from shoal.scenario.commands import Command
 from shoal.scenario.crew import Crew, crew_of
 from shoal.scenario.schema import Scenario
 
@@ -88,6 +89,10 @@ class Ocean:
         sound = np.isfinite(wants).all(axis=1) & (ids >= 0) & (ids < self._agents)
         with self.simulation.edit() as now:
             now.swarm.memory[ids[sound], :2] = wants[sound]
+
+    def order(self, command: Command) -> None:
+        """Let the engine go by what buoys are told: whom they can hear, where that is limited, is its to say."""
+        self.simulation.order(command)
 
     def advance(self) -> Trajectory:
         """Do a step; return the frame that it began with."""

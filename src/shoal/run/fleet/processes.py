@@ -17,10 +17,12 @@ from tempfile import TemporaryDirectory
 from types import TracebackType
 from typing import Any, Self
 
+from shoal.buoy.attend import ORDERED
 from shoal.buoy.mesh import Mesh
 from shoal.buoy.serve import KEY
 from shoal.buoy.tether import Commands, Note, Tick, from_bytes
-from shoal.buoy.zenoh_mesh import ZenohMesh
+from shoal.buoy.trust import NOBODY, Trust
+from shoal.buoy.zenoh_mesh import ZenohMesh, protocol_of
 from shoal.core.errors import FleetError, MessageError
 from shoal.scenario.load import to_toml
 from shoal.scenario.schema import Scenario
@@ -52,17 +54,20 @@ class Processes:
 
     Parameters
     ----------
-    scenario : of the fleet; run : number of the replicate
+    scenario : of the fleet
     shares : which buoys are in one process each
     max_age : steps that a report may be old to be heard
     period : of a step on the clock [s]; None: lockstep
     plain : whether buoys decide without a compiler
     meanwhile : what else is done while they start
+    trust : whose orders they obey, and whom they hear
 
     Attributes
     ----------
     tied : the processes that are there
     mesh : what buoys tell each other arrives here, too
+    address : of one of the buoys, for orders
+    heed : called with what buoys say of orders
 
     Raises
     ------
@@ -75,11 +80,11 @@ class Processes:
         scenario: Scenario,
         shares: Sequence[Sequence[int]],
         *,
-        run: int = 0,
         max_age: int = 0,
         period: float | None = None,
         plain: bool = False,
         meanwhile: Callable[[], object] | None = None,
+        trust: Trust = NOBODY,
     ) -> None:
         self.tied: list[Tied] = []
         self._meanwhile = meanwhile
@@ -89,16 +94,20 @@ class Processes:
         self._plain = plain
         self._started: dict[tuple[int, ...], subprocess.Popen[bytes]] = {}
         self._arrived: queue.SimpleQueue[Any] = queue.SimpleQueue()
-        self._places = [f"tcp/{HOST}:{port}" for port in _free_ports(len(self._shares) + 1)]
+        self._trust = trust
+        self.heed: Callable[[dict[str, Any]], None] = lambda facts: None
+        protocol = protocol_of(trust.mesh_config)
+        self._places = [f"{protocol}/{HOST}:{port}" for port in _free_ports(len(self._shares) + 1)]
+        self.address = self._places[0]
         name = f"shoal/{secrets.token_hex(4)}"
-        self.mesh: Mesh = ZenohMesh(name, "sea", listen=self._places[-1])
+        self.mesh: Mesh = ZenohMesh(name, "sea", listen=self._places[-1], config=trust.mesh_config)
         self._folder = TemporaryDirectory(prefix="shoal-fleet-")
         self._key = secrets.token_hex(32)
         self._listener = Listener((HOST, 0), authkey=bytes.fromhex(self._key), backlog=max(16, len(self._shares)))
         self._welcome = {
             "fleet": name,
             "nodes": len(self._shares) + 1,
-            "run": run,
+            "run": 0,
             "max_age": max_age,
             "period": period,
         }
@@ -170,9 +179,12 @@ class Processes:
     def receive(self, tied: Tied) -> Commands | Note | Tick | None:
         """What a process says; None if it is gone, or says what is no message."""
         try:
-            return from_bytes(tied.connection.recv_bytes())
+            said = from_bytes(tied.connection.recv_bytes())
         except (EOFError, OSError, MessageError):
             return None
+        if isinstance(said, Note) and said.word == ORDERED:
+            self.heed(said.facts)
+        return said
 
     def lose(self, tied: Tied) -> list[int]:
         """Take a process that is gone off the list; return its buoys."""
@@ -233,6 +245,8 @@ class Processes:
         host, port = self._listener.address[:2]
         command = [sys.executable, "-m", "shoal", "buoy", str(file), "--id", ",".join(map(str, ids))]
         command += ["--connect", f"{host}:{port}", *(["--plain"] if self._plain else [])]
+        for option, place in (("--command-key", self._trust.command_key), ("--mesh-config", self._trust.mesh_config)):
+            command += [option, str(place)] if place else []
         root = str(Path(__file__).resolve().parents[2])
         paths = [root, *filter(None, [os.environ.get("PYTHONPATH")])]
         about = {**os.environ, KEY: self._key, "PYTHONPATH": os.pathsep.join(paths), "OPENBLAS_NUM_THREADS": "1"}

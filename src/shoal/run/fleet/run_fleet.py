@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from shoal.buoy.trust import NOBODY, Trust, key_in
 from shoal.core.errors import FleetError
 from shoal.record.files import RecordFolder
 from shoal.record.record import Record
@@ -40,6 +41,7 @@ class Terms:
     mesh : "zenoh", between processes; "memory", all in this process, which is always in lockstep
     max_age : steps that a report may be old to be heard; default: 0 in lockstep, else 1
     plain : whether buoys decide without a compiler: they start at once, with less memory
+    trust : whose orders they obey, and whom they hear
     """
 
     processes: int | None = None
@@ -49,6 +51,7 @@ class Terms:
     mesh: str = "zenoh"
     max_age: int | None = None
     plain: bool = False
+    trust: Trust = NOBODY
 
     @property
     def in_lockstep(self) -> bool:
@@ -63,6 +66,7 @@ def run_fleet(
     out: str | Path | None = None,
     progress: Callable[[int, int], None] | None = None,
     onlooker: Onlooker | None = None,
+    tell: Callable[[str], None] | None = None,
 ) -> Record:
     """Run the buoys of a scenario by themselves in a stand-in for the sea, and return the record of what they did.
 
@@ -75,6 +79,7 @@ def run_fleet(
     out : write the record to this new folder
     progress : called as progress(steps done, steps in all)
     onlooker : called as onlooker(simulation, frame, who is silent) before every step, and must be quick
+    tell : called with where buoys take orders, once they do
 
     Raises
     ------
@@ -90,6 +95,8 @@ def run_fleet(
         with RecordFolder(out):  # refused now, not after the run
             pass
     in_memory = terms.mesh == "memory"
+    if terms.trust.command_key:
+        key_in(terms.trust.command_key)
     by_clock = not terms.in_lockstep
     period = scenario.time_step / (terms.speed or 1.0)
     max_age = terms.max_age if terms.max_age is not None else int(by_clock)
@@ -111,11 +118,16 @@ def run_fleet(
                     period=period if by_clock else None,
                     plain=terms.plain,
                     meanwhile=lambda: oceans.append(_opened(scenario, onlooker)),
+                    trust=terms.trust,
                 )
             )
             (ocean,) = oceans
         mark_compiled(scenario, BUOYS)
         killing, log = Killing(crowd, kills), Log(ocean, onlooker)
+        if isinstance(crowd, Processes):
+            crowd.heed = log.heed
+            if tell and terms.trust.command_key:
+                tell(crowd.address)
         sea = PacedSea(ocean, crowd, killing, log, period) if isinstance(crowd, Processes) and by_clock else None
         try:
             if sea:
@@ -161,6 +173,9 @@ def _shares(agents: int, terms: Terms) -> list[list[int]]:
     """
     if terms.mesh not in MESHES:
         raise FleetError("--mesh", f"is {terms.mesh!r}", f"there are: {', '.join(MESHES)}")
+    if terms.mesh == "memory" and any(terms.trust):
+        option = "--command-key" if terms.trust.command_key else "--mesh-config"
+        raise FleetError(option, "is for a mesh between processes", "leave it out, or take --mesh zenoh")
     if terms.mesh == "memory" and terms.processes not in (None, 1):
         raise FleetError("--mesh memory", "is within one process", "leave out --processes, or take --mesh zenoh")
     for name, number, least, most in (
@@ -197,6 +212,13 @@ def _measured(facts: list[dict[str, Any]], by_clock: bool) -> list[str]:
         f"{max(each['memory'] for each in facts) / 2**20:.0f} MiB in the largest of {len(facts)} processes",
         f"of the reports that arrived {counts['new']:,} were new; {', '.join(dropped)}",
     ]
+    orders: Counter[str] = Counter()
+    for each in facts:
+        orders.update(each["orders"])
+    if orders["unread"]:
+        notes.append(f"{orders['unread']:,} orders came, and none was obeyed: the buoys have no key for them")
+    elif orders:
+        notes.append("of the messages about orders " + ", ".join(f"{n:,} {word}" for word, n in sorted(orders.items())))
     if by_clock:
         delays, ages = (_summed(facts, name) for name in ("delays", "ages"))
         unheard = ages.pop(-1, 0)

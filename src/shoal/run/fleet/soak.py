@@ -13,6 +13,7 @@ from shoal.run.fleet.adversary import RECOVERY, Adversary, Incident
 from shoal.run.fleet.invariants import BrokenInvariantError, Ear, check_commands, demand, truths
 from shoal.run.fleet.log import Log
 from shoal.run.fleet.ocean import Ocean
+from shoal.run.fleet.order_storm import OrderStorm
 from shoal.run.fleet.paced import PacedSea
 from shoal.run.fleet.sea_watch import SeaWatch
 from shoal.run.fleet.vessel import Vessel, reading_once
@@ -97,6 +98,9 @@ class Soak:
         self._told = self._vessels[0].aboard.buoys[0].told
         self._neighbors = self._vessels[0].aboard.buoys[0].neighbors
         self._watch = SeaWatch(scenario, self._ocean)
+        self._orders = OrderStorm(seed, scenario, len(setting.shares))
+        for process, vessel in self._vessels.items():
+            self._orders.start(process, vessel, 0, anew=True)
         self._saved: dict[int, dict[int, Any]] = {}
 
     def run(self) -> Outcome:
@@ -129,6 +133,7 @@ class Soak:
         self.at_sea += len(tick.readings)
         for incident in self._adversary.plan(sorted(self._vessels)):
             self._befall(now, incident)
+        self._orders.blow(now)
         self._speak(now, tick)
         answers = self._hear_and_act(now)
         for commands in answers:
@@ -178,6 +183,7 @@ class Soak:
             if process in self._saved and vessel.away <= now:
                 states = self._saved.pop(process)
                 vessel.start(states)
+                self._orders.start(process, vessel, now, anew=not states)
                 demand("a restart goes on from what was", states in ({}, vessel.states()), True)
                 self._ears[process] = self._ear()
                 self._mesh.listen(process, True)
@@ -206,6 +212,7 @@ class Soak:
             if tick is None or vessel.away > now:
                 continue
             parcels = self._mesh.take(process, max(float(now), min(at, now + 1.0)))
+            self._orders.deliver(process, vessel, now)
             commands = vessel.acts(now, parcels)
             ear.take(parcels, tick.step)
             ear.check_counts(vessel.aboard.inbox)
@@ -214,7 +221,7 @@ class Soak:
             spoken = tick.step - self._scenario.network.delay
             spoken -= spoken % self._scenario.report_steps
             heard = ear.check_thoughts(tick, spoken, vessel.thoughts, self._neighbors, self._scenario.time_step)
-            check_commands(commands, vessel.thoughts)
+            check_commands(commands, vessel.thoughts, self._orders.check(process, vessel, tick.step))
             ear.forget(tick.step)
             ear.check_kept(vessel.aboard.inbox)
             self._hash.update(commands.wants.tobytes())
