@@ -128,7 +128,7 @@ MUTANTS = {
         "_stop_the_silent",
         "> self._quiet)",
         "> 2 * self._quiet)",
-        "silent stop",
+        "silen",  # they stop, or the log has their silence: who holds lies still anyway
     ),
     "the silent are not noted": (PacedSea, "_stop_the_silent", "self._log.notes.append(", "str(", "every silence"),
     "the log skips steps": (
