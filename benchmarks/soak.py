@@ -1,13 +1,15 @@
-"""A fleet of 50 buoys under a seeded adversary, for as long as there is time: `make soak`.
+"""A fleet of 50 buoys under a seeded adversary, for as long as there is time, on all cores: `make soak`.
 
-    python benchmarks/soak.py [--minutes 60] [--processes 2] [--first 0] [--steps 3000]
+    python benchmarks/soak.py [--minutes 60] [--processes CORES] [--first SEED] [--steps 3000]
     python benchmarks/soak.py --seed 17       # one seed again, with all that befell it
 
-Prints the buoy-hours done at 10 Hz, and of the first invariant that is broken the seed and the command that replays it;
-the exit code is 1 then.
+Prints the buoy-hours done at 10 Hz, and of the first invariant that is broken the seed and the command that replays it,
+after it was replayed; the exit code is 1 then.
 """
 
 import argparse
+import os
+import resource
 import sys
 import time
 from multiprocessing import get_context
@@ -21,14 +23,21 @@ def main():
     """The command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--minutes", type=float, default=60.0)
-    parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--processes", type=int, default=cores(), help="default: as many as there are cores")
     parser.add_argument("--first", type=int, default=int(time.time()) // 60, help="the first seed; default: the time")
     parser.add_argument("--steps", type=int, default=STEPS, help="of each seed, at 10 Hz")
     parser.add_argument("--seed", type=int, help="run this one only")
     chosen = parser.parse_args()
+    if chosen.processes < 1 or chosen.steps < 1:
+        parser.error("--processes and --steps are 1 or more")
     if chosen.seed is not None:
         sys.exit(replay(chosen.seed, chosen.steps))
     sys.exit(run(chosen))
+
+
+def cores():
+    """How many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def replay(seed, steps):
@@ -40,16 +49,16 @@ def replay(seed, steps):
 
 
 def timed(seed, steps):
-    """What comes of a seed, and the processor time that it took [s]."""
+    """What comes of a seed, the processor time that it took [s], and the most memory that its process ever had [MB]."""
     begun = time.process_time()
     outcome = soak(seed, steps=steps)
-    return outcome, time.process_time() - begun
+    return outcome, time.process_time() - begun, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
 
 
 def run(chosen):
-    """Seed after seed, until time is up or an invariant is broken."""
+    """Seed after seed, until time is up, an invariant is broken or somebody interrupts it."""
     begun, steps = time.monotonic(), chosen.steps
-    seeds, at_sea, decisions, spent = 0, 0, 0, 0.0
+    seeds, at_sea, decisions, spent, most = 0, 0, 0, 0.0, 0
     following = chosen.first + chosen.processes
     with get_context("spawn").Pool(chosen.processes) as pool:
         waiting = [pool.apply_async(timed, (seed, steps)) for seed in range(chosen.first, following)]
@@ -59,17 +68,19 @@ def run(chosen):
                 time.sleep(0.05)
                 continue
             waiting.remove(done)
-            outcome, took = done.get()
+            outcome, took, memory = done.get()
             if outcome.broken:
                 print(said(outcome, steps))
+                same = soak(outcome.seed, steps=steps) == outcome
+                print("replayed: the same to the bit" if same else "REPLAYED: SOMETHING ELSE, WHICH IS A FAULT, TOO")
                 return 1
             seeds, at_sea, decisions = seeds + 1, at_sea + outcome.at_sea, decisions + outcome.decisions
-            spent += took
+            spent, most = spent + took, max(most, memory)
             hours = (time.monotonic() - begun) / 3600
             print(
                 f"{seeds} seeds, {at_sea / HOUR:.1f} buoy-hours ({decisions / HOUR:.1f} of decisions): "
-                f"{at_sea / HOUR / hours:,.0f} ({decisions / HOUR / hours:,.0f}) in an hour, "
-                f"{1e6 * spent / decisions:.0f} us of processor per decision",
+                f"{at_sea / HOUR / hours:,.0f} ({decisions / HOUR / hours:,.0f}) an hour on {chosen.processes} cores, "
+                f"{1e6 * spent / max(1, decisions):.0f} us of processor per decision, {most} MB at most each",
                 flush=True,
             )
             if time.monotonic() < begun + 60.0 * chosen.minutes:

@@ -3,9 +3,10 @@
 from shoal.buoy import orderbook
 from shoal.buoy.aboard import Aboard
 from shoal.buoy.buoy import Buoy
-from shoal.buoy.compiled import CompiledMind
+from shoal.buoy.compiled import CompiledMinds
 from shoal.buoy.inbox import Inbox
 from shoal.buoy.orderbook import Orderbook
+from shoal.buoy.said import Said
 from shoal.core import messages
 from shoal.run.fleet.log import Log
 from shoal.run.fleet.ocean import Ocean
@@ -42,57 +43,52 @@ MUTANTS = {
     "duplicates are new": (
         Inbox,
         "put",
-        "elif report.id in self._said.setdefault(step, {}):",
-        "elif self._said.setdefault(step, {}) is None:",
+        "elif id in (said :=",
+        "elif None is (said :=",
         "counted",
     ),
-    "a duplicate is not counted": (Inbox, "put", 'self.counts["duplicate"] += 1', "pass", "counted"),
+    "a duplicate is not counted": (Inbox, "put", 'counts["duplicate"] += 1', "pass", "counted"),
     "late reports are taken": (Inbox, "put", "elif step < max(0, now - self._kept):", "elif step < 0:", "counted"),
     "reports are late a step too soon": (Inbox, "put", "now - self._kept)", "now - self._kept + 1)", "counted"),
     "early reports are taken": (Inbox, "put", "now + AHEAD", "now + 1_000", "counted"),
-    "strangers are taken": (Inbox, "put", "report.id >= self._agents or", "", "raises an error"),
+    "strangers are taken": (Inbox, "put", "id >= self._agents or", "", "raises an error"),
     "times between steps are taken": (Inbox, "put", "abs(steps - round(steps)) > 1e-3", "False", "counted"),
     "times before the start are taken": (Inbox, "put", "not 0.0 <= steps", "not -1e9 <= steps", "counted"),
-    "who is reordered is forgotten": (Inbox, "put", "max(step, self._last.get(report.id, 0))", "step", "counted"),
+    "who is reordered is forgotten": (Inbox, "put", "max(step, last)", "step", "counted"),
     "an inbox keeps everything": (Inbox, "forget", "step < now - self._kept", "step < 0", "stays small"),
     "an inbox forgets too much": (Inbox, "forget", "step < now - self._kept", "step <= now - 1", "counted"),
     "damaged reports are read": (messages, "unpack", "!= zlib.crc32(body)", "is None", "counted"),
-    "numbers that are none are read": (messages, "unpack", "_check_finite(read, numbers)", "pass", "not finite"),
-    "a buoy hears itself": (Buoy, "_heard", "report.id != self.id and", "", "itself"),
-    "one more than k is heard": (Buoy, "_heard", "[: self.neighbors]", "[: self.neighbors + 1]", "at most k"),
-    "one less than k is heard": (Buoy, "_heard", "[: self.neighbors]", "[: self.neighbors - 1]", "k nearest"),
-    "the farthest are heard": (Buoy, "_heard", "sorted(far)[:", "sorted(far, reverse=True)[:", "k nearest"),
-    "the first by id are heard": (
-        Buoy,
-        "_heard",
-        "sorted(far)[:",
-        "[(0.0, id) for id in sorted(newest)][:",
-        "k nearest",
-    ),
+    "numbers that are none are read": (messages, "unpack", "_check_finite(read, numbers)", "pass", "counted"),
+    "a buoy hears itself": (Said, "nearest", "square[ids[:, None] == speakers] = np.nan", "", "itself"),
+    "one more than k is heard": (Said, "nearest", ", most)", ", np.add(most, 1))", "at most k"),
+    "one less than k is heard": (Said, "nearest", ", most)", ", np.subtract(most, 1))", "k nearest"),
+    "the farthest are heard": (Said, "nearest", "argsort(square", "argsort(-square", "k nearest"),
+    "the first by id are heard": (Said, "nearest", "argsort(square", "argsort(0.0 * square", "k nearest"),
+    "the nearest from west to east are heard": (Said, "nearest", "dx * dx + dy * dy", "dx * dx", "k nearest"),
+    "limited radios hear all": (Said, "nearest", "if hears is not None", "if False", "k nearest"),
+    "x and y are mixed up": (Said, "__init__", "(each.x, each.y,", "(each.y, each.x,", "k nearest"),
+    "velocities are mixed up": (Said, "__init__", "each.vx, each.vy,", "each.vy, each.vx,", "what was said"),
+    "times are not told": (Said, "__init__", "each.time)", "0.0)", "what was said"),
+    "everybody heard is on target": (Said, "__init__", "[each.on_target for", "[True for", "what was said"),
     "a buoy reports where it will be": (Buoy, "report", "float(x)", "float(x + vx)", "say what instruments"),
     "a buoy reports in halves": (Buoy, "report", "float(vy)", "float(vy / 2)", "say what instruments"),
     "a buoy is a step behind in its reports": (Buoy, "report", "time = step", "time = (step - 1)", "say when"),
-    "a buoy decides a step behind": (
-        Buoy,
-        "decide",
-        "self._mind.decide(me, heard, step)",
-        "self._mind.decide(me, heard, step - 1)",
-        "its own clock",
-    ),
+    "a buoy decides a step behind": (Buoy, "decide_together", "near, step)", "near, step - 1)", "its own clock"),
     "a buoy wants what is no number": (
         Buoy,
-        "decide",
-        "vx, vy = self._mind.decide(me, heard, step)",
-        "vx, vy = 0.0, self._mind.decide(me, heard, step)[1]",
+        "decide_together",
+        "return wants",
+        "return [[np.nan, y] for _, y in wants]",
         "commands are decisions",
     ),
-    "the dead are heard": (Aboard, "act", "if tick.alive[id]", "", "k nearest"),
-    "limited radios hear all": (Aboard, "act", "if tick.hears is None", "if True", "k nearest"),
-    "one buoy is silent": (Aboard, "speak", "in tick.readings:", "in tick.readings[1:]:", "every buoy speaks"),
+    "the dead are heard": (Aboard, "_said", "there[id]", "True", "k nearest"),
+    "one buoy is silent": (Aboard, "speak", "in readings_of(tick):", "in readings_of(tick)[1:]:", "every buoy speaks"),
     "buoys speak between reports": (Aboard, "speak", "if tick.step % self._interval:", "if False:", "between reports"),
-    "one buoy does not decide": (Aboard, "act", "buoy.decide(", "number and buoy.decide(", "every buoy decides"),
+    "one buoy does not decide": (Aboard, "act", "dict(readings_of(tick))", "dict(readings_of(tick)[1:])", "an error"),
     "wants are those of others": (Aboard, "act", "tick, wants)", "tick, wants[::-1])", "commands are decisions"),
+    "what is said now and then is heard always": (Aboard, "spoken", "arrived % self._interval", "0", "k nearest"),
     "what is delayed is heard at once": (Aboard, "spoken", "step - self._delay", "step", "from the future"),
+    "the sea follows one process": (Ocean, "follow", "if answers:", "if answers := answers[:1]:", "decided last"),
     "bodies forget a command": (
         Ocean,
         "obey",
@@ -122,7 +118,7 @@ MUTANTS = {
         "say what is so",
     ),
     "the killed stay": (Ocean, "lose", "now.swarm.leaves[lost] = self.number", "pass", "lost are gone"),
-    "the silent go on": (PacedSea, "_stop_the_silent", "if ids.size:", "if False:", "silent stop"),
+    "the silent go on": (PacedSea, "_stop_the_silent", "if fresh.size:", "if False:", "silent stop"),
     "the silent go on for a second more": (
         PacedSea,
         "_stop_the_silent",
@@ -153,7 +149,13 @@ MUTANTS = {
         "self.aboard = getattr(self, 'aboard', None) or Aboard(",
         "counted",
     ),
-    "a restart forgets what was": (Buoy, "restore", "self._mind.recall(memory)", "pass", "goes on from what was"),
+    "a restart forgets what was": (
+        Buoy,
+        "restore",
+        "self._minds.recall(self._place, memory)",
+        "pass",
+        "goes on from what was",
+    ),
     "the log remembers for others": (
         Log,
         "remember",
@@ -169,10 +171,22 @@ MUTANTS = {
         "alive = self.alive & (self.number < 50)",
         "who is there",
     ),
-}
-
-# What a mind makes of what it hears has no second opinion here: tests/run/fleet/test_lockstep.py has the simulator's.
-SURVIVORS = {
-    "x and y are mixed up": (CompiledMind, "decide", "(each.x, each.y,", "(each.y, each.x,"),
-    "the chance of another step is drawn": (CompiledMind, "decide", "self._key, step)", "self._key, step + 1)"),
+    "the chance of another step is drawn": (
+        CompiledMinds,
+        "decide",
+        "(self._key, step)",
+        "(self._key, step + 1)",
+        "strategy says",
+    ),
+    "minds forget": (CompiledMinds, "decide", "self._memory,", "self._memory.copy(),", "strategy does"),
+    "minds hear one less": (CompiledMinds, "decide", "inbox, near,", "inbox, near[:, 1:].copy(),", "strategy says"),
+    "minds do not know their speed": (
+        CompiledMinds,
+        "decide",
+        "[rows, :8] = readings",
+        "[rows, :8] = [(*each[:2], 0.0, *each[3:]) for each in readings]",
+        "strategy says",
+    ),
+    "minds take themselves for another": (CompiledMinds, "__init__", "[me.id,", "[0,", "strategy says"),
+    "minds remember for another": (CompiledMinds, "recall", "[place,", "[0,", "goes on from what was"),
 }

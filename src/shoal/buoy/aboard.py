@@ -12,10 +12,10 @@ import numpy.typing as npt
 from shoal.buoy.buoy import Buoy
 from shoal.buoy.inbox import Inbox
 from shoal.buoy.orderbook import Orderbook
-from shoal.buoy.tether import Commands, Tick, reading_of
+from shoal.buoy.said import Said
+from shoal.buoy.tether import Commands, Tick, readings_of
 from shoal.core.errors import ShoalError
 from shoal.core.links import MOST_LINKED
-from shoal.core.messages import Report
 from shoal.scenario.commands import Command
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
@@ -48,17 +48,18 @@ class Aboard:
         self.orderbook: Orderbook | None = None
         self._ordered: list[Command] = []
         self.unread = 0  # orders that came without a key to open them
-        self.buoys = {id: Buoy(scenario, id, run=run) for id in ids}
+        self.buoys = Buoy.several(scenario, ids, run=run)
         self._delay, self._interval = scenario.network.delay, scenario.report_steps
         self._max_age, self._agents = max_age, scenario.agents
         kept = self._delay + self._interval + max_age
-        self.inbox = Inbox(scenario.agents, crew_of(scenario).told, scenario.time_step, kept)
+        self._told = crew_of(scenario).told
+        self.inbox = Inbox(scenario.agents, self._told, scenario.time_step, kept)
         self._before = {id: buoy.state for id, buoy in self.buoys.items()}
 
     def begin(self, tick: Tick) -> Commands:
         """Set up memories where the buoys lie; nothing is wanted yet."""
-        for row in tick.readings:
-            self.buoys[int(row["id"])].begin(reading_of(row))
+        for id, reading in readings_of(tick):
+            self.buoys[id].begin(reading)
         return self._commands(tick, [(0.0, 0.0)] * len(tick.readings))
 
     def speak(self, tick: Tick) -> list[bytes]:
@@ -66,8 +67,8 @@ class Aboard:
         if tick.step % self._interval:
             return []
         said = []
-        for row in tick.readings:
-            said.append(self.buoys[int(row["id"])].report(reading_of(row), tick.step).to_bytes())
+        for id, reading in readings_of(tick):
+            said.append(self.buoys[id].report(reading, tick.step).to_bytes())
         return said
 
     def hear(self, messages: Iterable[bytes], step: int) -> None:
@@ -125,20 +126,21 @@ class Aboard:
     def act(self, tick: Tick) -> Commands:
         """What they want at a step, from what they measure and hear, and are told to do."""
         self._obey(tick.step)
-        self._before = {int(id): self.buoys[int(id)].state for id in tick.readings["id"]}
-        then = self.spoken(tick.step)
-        said = self.inbox.newest(then, self._max_age)
-        if then == tick.step:
-            said = {id: report for id, report in said.items() if tick.alive[id]}
-        everybody = list(said.values())
-        wants = []
-        for number, row in enumerate(tick.readings):
-            inbox = everybody if tick.hears is None else _heard(said, tick.hears[number])
-            buoy = self.buoys[int(row["id"])]
-            buoy.decide(reading_of(row), inbox, tick.step)
-            wants.append(buoy.wanted)
+        measured = dict(readings_of(tick))
+        here = [self.buoys[id] for id in measured]
+        self._before = {buoy.id: buoy.state for buoy in here}
+        wants: Sequence[Sequence[float]] = []
+        if here:
+            wants = Buoy.decide_together(here, list(measured.values()), self._said(tick), tick.hears, tick.step)
         self.inbox.forget(tick.step)
         return self._commands(tick, wants)
+
+    def _said(self, tick: Tick) -> Said:
+        """What can be heard at a step; of those who speak in it, who is gone is not."""
+        then = self.spoken(tick.step)
+        said = self.inbox.newest(then, self._max_age)
+        there = tick.alive.tolist()
+        return Said([said[id] for id in sorted(said) if then != tick.step or there[id]], self._told, len(tick.readings))
 
     def links(self, ids: npt.NDArray[np.int32]) -> npt.NDArray[np.bool_] | None:
         """Whom each of n buoys heard when it decided last, (n, N); None of more agents than links are kept of."""
@@ -159,9 +161,9 @@ class Aboard:
         for id, state in self._before.items():
             self.buoys[id].restore(state)
 
-    def _commands(self, tick: Tick, wants: list[tuple[float, float]]) -> Commands:
+    def _commands(self, tick: Tick, wants: Sequence[Sequence[float]]) -> Commands:
         ids = tick.readings["id"].astype(np.int32)
-        memory = [self.buoys[int(id)].state[0] for id in ids]
+        memory = [self.buoys[id].state[0] for id in ids.tolist()]
         return Commands(
             tick.step,
             tick.turn,
@@ -169,7 +171,3 @@ class Aboard:
             np.array(wants, float).reshape(len(ids), 2),
             np.array(memory, float).reshape(len(ids), -1 if len(ids) else 0),
         )
-
-
-def _heard(said: dict[int, Report], hears: np.ndarray) -> list[Report]:
-    return [said[id] for id in np.flatnonzero(hears).tolist() if id in said]

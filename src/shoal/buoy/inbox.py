@@ -47,22 +47,23 @@ class Inbox:
         except MessageError:
             self.counts["damaged"] += 1
             return
-        steps = report.time / self._time_step
-        if report.id >= self._agents or not 0.0 <= steps < 2**53 or abs(steps - round(steps)) > 1e-3:
-            self.counts["strange"] += 1
+        counts, id, steps = self.counts, report.id, report.time / self._time_step
+        if id >= self._agents or not 0.0 <= steps < 2**53 or abs(steps - round(steps)) > 1e-3:
+            counts["strange"] += 1
             return
-        step = self.step_of(report)
+        step = round(steps)
         if step > now + AHEAD:
-            self.counts["early"] += 1
+            counts["early"] += 1
         elif step < max(0, now - self._kept):
-            self.counts["late"] += 1
-        elif report.id in self._said.setdefault(step, {}):
-            self.counts["duplicate"] += 1
+            counts["late"] += 1
+        elif id in (said := self._said.setdefault(step, {})):
+            counts["duplicate"] += 1
         else:
-            self._said[step][report.id] = report
-            self.counts["new"] += 1
-            self.counts["reordered"] += step < self._last.get(report.id, 0)
-            self._last[report.id] = max(step, self._last.get(report.id, 0))
+            said[id] = report
+            last = self._last.get(id, 0)
+            counts["new"] += 1
+            counts["reordered"] += step < last
+            self._last[id] = max(step, last)
 
     def step_of(self, report: Report) -> int:
         """The step at which a report was said."""

@@ -1,8 +1,9 @@
 """Which strategies a scenario's fleets follow, as the engine takes them: one, or a team of several."""
 
 from collections.abc import Callable
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 from shoal.core.errors import ScenarioError
@@ -13,6 +14,8 @@ from shoal.strategies.compiled import compiled_for
 from shoal.strategies.errors import strategy_errors
 from shoal.strategies.puppet import PUPPET
 from shoal.strategies.team import MOST, depth_of, team
+
+_NO_ERRORS = nullcontext()
 
 
 @dataclass(frozen=True)
@@ -32,7 +35,7 @@ class Crew:
     memory: tuple[str, ...]
     told: tuple[str, ...]
 
-    @property
+    @cached_property
     def builtin(self) -> bool:
         """Whether all of it comes with Shoal, so that compiled code can be cached."""
         return all(each.builtin for each in self.strategies)
@@ -70,7 +73,7 @@ class Crew:
 
     def naming_errors(self) -> AbstractContextManager[None]:
         """A context in which what a user's strategy gets wrong becomes one StrategyError that names its line."""
-        return strategy_errors(self.strategies)
+        return _NO_ERRORS if self.builtin else strategy_errors(self.strategies)
 
 
 def crew_of(scenario: Scenario) -> Crew:

@@ -8,14 +8,14 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.buoy.inbox import Inbox
+from shoal.buoy.said import Said
 from shoal.buoy.tether import Commands, Tick
-from shoal.core.messages import Report
 from shoal.core.wire import wire_dtype
 from shoal.run.fleet.vessel import Thought
 from shoal.run.fleet.virtual_mesh import Parcel
 
 AHEAD = 2  # steps that a report may be ahead of a listener's clock: of the rule, not of its code
-Truth = tuple[Any, ...]
+CONTENT = ("id", "x", "y", "vx", "vy", "on_target", "time")  # of what was said, and then what is told
 
 
 class BrokenInvariantError(AssertionError):
@@ -45,8 +45,8 @@ def demand(invariant: str, found: Any, wanted: Any) -> None:
         raise BrokenInvariantError(invariant, f"{str(found)[:300]} instead of {str(wanted)[:300]}")
 
 
-def truths(said: list[bytes], tick: Tick, told: tuple[str, ...], time_step: float) -> list[Truth]:
-    """What reports say, which must be what the instruments do, at this step.
+def truths(said: list[bytes], tick: Tick, told: tuple[str, ...], time_step: float) -> list[bytes]:
+    """What reports say, as numbers, which must be what the instruments do, at this step.
 
     Raises
     ------
@@ -55,11 +55,13 @@ def truths(said: list[bytes], tick: Tick, told: tuple[str, ...], time_step: floa
     demand("every buoy speaks", len(said), len(tick.readings))
     kind = wire_dtype(told)
     demand("every report has its size", {len(each) for each in said} or {kind.itemsize}, {kind.itemsize})
-    rows = np.frombuffer(b"".join(said), kind).tolist()
-    found = [(*row[1:2], *row[3:8], tuple(row[8]) if told else ()) for row in rows]
-    demand("reports say what instruments do", [each[:6] for each in found], [row[:6] for row in tick.readings.tolist()])
-    demand("reports say when", {round(row[2] / time_step, 6) for row in rows}, {float(tick.step)})
-    return found
+    rows = np.frombuffer(b"".join(said), kind)
+    found = np.array([*(rows[name] for name in CONTENT), *(rows["told"][name] for name in told)]).T
+    true = np.array([tick.readings[name] for name in CONTENT[:-1]]).T
+    if not np.array_equal(found[:, : len(CONTENT) - 1], true):
+        demand("reports say what instruments do", found.tolist(), true.tolist())
+    demand("reports say when", set(np.round(found[:, len(CONTENT) - 1] / time_step, 6).tolist()), {float(tick.step)})
+    return [row.tobytes() for row in found]
 
 
 class Ear:
@@ -73,24 +75,21 @@ class Ear:
     def __init__(self, agents: int, kept: int, max_age: int) -> None:
         self.counts: Counter[str] = Counter()
         self._agents, self._kept, self._max_age = agents, kept, max_age
-        self._said: dict[int, dict[int, Truth]] = {}
+        self._said: dict[int, dict[int, bytes]] = {}
         self._last: dict[int, int] = {}
 
     def take(self, parcels: list[Parcel], now: int) -> None:
         """Think of each parcel what the rule says."""
         words: list[str] = []
-        for parcel in parcels:
-            truth, step = parcel.truth, parcel.step
-            if truth is None:
-                words.append(parcel.word)
-                continue
-            speaker: Any = truth[0]
-            said = self._said.setdefault(step, {})
-            if step > now + AHEAD:
+        oldest, newest = now - self._kept, now + AHEAD
+        for _, speaker, truth, step, word in parcels:
+            if speaker is None:
+                words.append(word)
+            elif step > newest:
                 words.append("early")
-            elif step < now - self._kept:
+            elif step < oldest:
                 words.append("late")
-            elif speaker in said:
+            elif speaker in (said := self._said.setdefault(step, {})):
                 words.append("duplicate")
             else:
                 said[speaker] = truth
@@ -125,85 +124,104 @@ class Ear:
         for step in [step for step in self._said if not now - self._kept <= step <= now + AHEAD]:
             del self._said[step]
 
-    def hears(self, spoken: int, present: npt.NDArray[np.bool_] | None) -> list[Truth]:
+    def hears(self, spoken: int, present: npt.NDArray[np.bool_] | None) -> npt.NDArray[np.float64]:
         """The newest of each speaker within the age rule, in the order of speakers; who is not present is not heard."""
-        found: dict[int, Truth] = {}
+        found: dict[int, bytes] = {}
         for step in range(max(0, spoken - self._max_age), spoken + 1):
             found |= self._said.get(step, {})
-        return [found[id] for id in sorted(found) if present is None or present[id]]
+        rows = np.frombuffer(b"".join([found[id] for id in sorted(found)])).reshape(len(found), -1 if found else 7)
+        return rows if present is None else rows[present[rows[:, 0].astype(int)]]
 
-    def check_thoughts(self, tick: Tick, spoken: int, thoughts: list[Thought], neighbors: int, time_step: float) -> int:
+    def check_thought(
+        self, tick: Tick, spoken: int, thought: Thought, neighbors: int, time_step: float
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
         """Every buoy decided on its own reading, and on exactly the reports of the k nearest of those it hears.
 
         Returns
         -------
-        of how many buoys reports could be heard
+        the reports that could be heard, in the order of CONTENT, and (n, k) rows of neighbors in them; -1: no more
 
         Raises
         ------
         BrokenInvariantError : it decided on anything else
         """
-        rows = tick.readings.tolist()
-        demand("every buoy decides", [each.me.id for each in thoughts], [row[0] for row in rows])
+        rows = tick.readings
+        demand("every buoy decides", thought.ids, rows["id"].tolist())
+        demand("a buoy goes by its own clock", thought.step, tick.step)
+        demand("a buoy believes its instruments", thought.readings, [row[1:] for row in rows.tolist()])
         heard = self.hears(spoken, tick.alive if spoken == tick.step else None)
-        ids = np.array([each[0] for each in heard], int)
-        x = np.array([each[1] for each in heard])
-        y = np.array([each[2] for each in heard])
-        own_x, own_y = tick.readings["x"][:, None], tick.readings["y"][:, None]
-        square = (own_x - x) * (own_x - x) + (own_y - y) * (own_y - y)
-        square[ids == tick.readings["id"][:, None]] = np.inf
+        ids, (x, y) = heard[:, 0].astype(int), heard[:, 1:3].T
+        square = (rows["x"][:, None] - x) * (rows["x"][:, None] - x) + (rows["y"][:, None] - y) * (
+            rows["y"][:, None] - y
+        )
+        square[ids == rows["id"][:, None]] = np.inf
         if tick.hears is not None:
             square[~tick.hears[:, ids]] = np.inf
-        order = np.argsort(square, axis=1, kind="stable")[:, :neighbors]
-        reached = np.take_along_axis(square, order, axis=1) < np.inf
-        nearest = np.sort(np.where(reached, order, -1), axis=1).tolist()
-        time = tick.step * time_step
-        for n, thought in enumerate(thoughts):
-            me = thought.me
-            if (thought.step, me.time, me[1:6]) != (tick.step, time, rows[n][1:6]):
-                demand("a buoy goes by its own clock", (thought.step, me.time), (tick.step, time))
-                demand("a buoy believes its instruments", me[1:6], rows[n][1:6])
-            wanted = [heard[place] for place in nearest[n] if place >= 0]
-            found = [each[:7] for each in thought.heard]
-            if found != wanted:
-                _accuse(thought, wanted, neighbors, (spoken - self._max_age, spoken), time_step)
-        return len(heard)
+        nearest = np.argsort(square, axis=1, kind="stable")[:, :neighbors]
+        reached = np.count_nonzero(square < np.inf, axis=1)[:, None]
+        nearest[np.arange(nearest.shape[1]) >= reached] = len(heard)  # nobody's row, behind all others
+        nearest.sort(axis=1)
+        nearest[nearest == len(heard)] = -1
+        content, found = _content(thought.said, heard.shape[1]), thought.near[:, :, 0]
+        same = np.array_equal(np.count_nonzero(found >= 0, axis=1), np.count_nonzero(nearest >= 0, axis=1))
+        if not same or not np.array_equal(content[found[found >= 0]], heard[nearest[nearest >= 0]]):
+            steps = spoken - self._max_age, spoken
+            for id, its, near in zip(thought.ids, found, nearest, strict=True):
+                one, other = content[its[its >= 0]], heard[near[near >= 0]]
+                if not np.array_equal(one, other):
+                    _accuse(f"buoy {id} in step {tick.step}", one, other, neighbors, steps, time_step)
+        return heard, nearest
 
 
-def _accuse(thought: Thought, wanted: list[Truth], k: int, steps: tuple[int, int], time_step: float) -> None:
+def _content(said: Said, columns: int) -> npt.NDArray[np.float64]:
+    """What is said in the order of CONTENT."""
+    inbox, count = said.inbox, len(said.reports)
+    content = np.empty((count, columns))
+    content[:, 0], content[:, 1:5], content[:, 5] = inbox.id, inbox.numbers[:, :4], inbox.on_target
+    content[:, 6], content[:, 7:] = inbox.numbers[:, 4], said.tells[:count, : columns - 7]
+    return content
+
+
+def _accuse(who: str, found: Any, wanted: Any, k: int, steps: tuple[int, int], time_step: float) -> None:
     """Say what is wrong with the reports that a buoy decided on."""
-    heard: list[Report] = thought.heard
-    ids = [report.id for report in heard]
-    found = [round(report.time / time_step) for report in heard]
-    who = f"buoy {thought.me.id} in step {thought.step}"
-    if thought.me.id in ids:
+    ids, times = found[:, 0].astype(int).tolist(), np.round(found[:, 6] / time_step).tolist()
+    if int(who.split()[1]) in ids:
         raise BrokenInvariantError("nobody hears itself", who)
-    if len(heard) > k:
-        raise BrokenInvariantError("at most k are heard", f"{who} heard {len(heard)}, k is {k}")
-    if found and max(found) > steps[1]:
-        raise BrokenInvariantError("nothing is heard from the future", f"{who} heard step {max(found)}")
-    if found and min(found) < steps[0]:
-        raise BrokenInvariantError("nothing is heard that is too old", f"{who} heard step {min(found)}")
-    if ids != [truth[0] for truth in wanted]:
-        raise BrokenInvariantError("the k nearest that can be heard are", f"{who} heard {ids}, not {wanted}"[:400])
-    raise BrokenInvariantError("what is heard is what was said", f"{who} heard {heard}, not {wanted}"[:400])
+    if len(found) > k:
+        raise BrokenInvariantError("at most k are heard", f"{who} heard {len(found)}, k is {k}")
+    if times and max(times) > steps[1]:
+        raise BrokenInvariantError("nothing is heard from the future", f"{who} heard step {max(times):g}")
+    if times and min(times) < steps[0]:
+        raise BrokenInvariantError("nothing is heard that is too old", f"{who} heard step {min(times):g}")
+    if ids != wanted[:, 0].tolist():
+        raise BrokenInvariantError(
+            "the k nearest that can be heard are", f"{who} heard {ids}, not {wanted[:, 0]}"[:400]
+        )
+    raise BrokenInvariantError("what is heard is what was said", f"{who} heard {found}, not {wanted}"[:400])
 
 
-def check_commands(commands: Commands, thoughts: list[Thought], under: dict[int, str]) -> None:
-    """What goes to the bodies is what was decided, or what a buoy wants under an order, and finite.
+def check_commands(commands: Commands, thought: Thought, speeds: list[float], under: dict[int, str]) -> None:
+    """What goes to the bodies is what was decided, or what a buoy wants under an order, and finite; so is the memory.
+
+    Parameters
+    ----------
+    commands : of a process; thought : what it decided
+    speeds : top speed of every agent [m/s]
+    under : the order that an agent is under; who is not in it is under none
 
     Raises
     ------
     BrokenInvariantError : it is not
     """
-    demand("commands are decisions", commands.ids.tolist(), [each.me.id for each in thoughts])
-    for wants, each in zip(commands.wants.tolist(), thoughts, strict=True):
-        order = under.get(each.me.id, "resume")
+    demand("commands are decisions", commands.ids.tolist(), thought.ids)
+    for id, wants, decided in zip(thought.ids, commands.wants.tolist(), thought.wants, strict=True):
+        order = under.get(id, "resume")
         if order == "hold":
             demand("who holds wants nothing", wants, [0.0, 0.0])
         elif order == "recall":
-            demand("nobody comes home faster than its make", math.hypot(*wants) <= each.me.max_speed + 1e-9, True)
+            demand("nobody comes home faster than its make", math.hypot(*wants) <= speeds[id] + 1e-9, True)
         else:
-            demand("commands are decisions", wants, list(each.wants))
+            demand("commands are decisions", wants, decided)
+    demand("commands have the memory", list(map(tuple, commands.memory.tolist())), thought.after)
     if not np.isfinite(commands.wants).all():
         raise BrokenInvariantError("every number is finite", f"wanted are {commands.wants}"[:300])

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 import numpy.typing as npt
 
-from shoal.buoy.tether import READINGS, Tick
+from shoal.buoy.tether import READINGS, Commands, Tick
 from shoal.core.errors import FleetError, ScenarioError, StrategyError
 from shoal.core.links import MOST_LINKED, unpacked
 from shoal.record.trajectory import Trajectory
@@ -93,6 +93,11 @@ class Ocean:
     def order(self, command: Command) -> None:
         """Let the engine go by what buoys are told: whom they can hear, where that is limited, is its to say."""
         self.simulation.order(command)
+
+    def follow(self, answers: list[Commands]) -> None:
+        """Let agents want what they say; of what one says twice, the later."""
+        if answers:
+            self.obey(np.concatenate([each.ids for each in answers]), np.concatenate([each.wants for each in answers]))
 
     def advance(self) -> Trajectory:
         """Do a step; return the frame that it began with."""

@@ -57,8 +57,8 @@ class PacedSea:
                 if not tied.say(tick.of(tied.ids).to_bytes()):
                     self._lose(self._crowd.lose(tied))
             answers = self._answers(self._begin + (ocean.number + 1) * self._period)
+            ocean.follow(answers)
             for commands in answers:
-                ocean.obey(commands.ids, commands.wants)
                 self._log.hear(commands.ids, commands.heard)
             self._stop_the_silent()
             self._log.keep(ocean.advance())
@@ -85,9 +85,10 @@ class PacedSea:
         """Stop the bodies of buoys that say nothing, and note when that begins and ends."""
         number = self._ocean.number
         silent = (number - self._said > self._quiet) & self._ocean.alive
-        ids = np.flatnonzero(silent).astype(np.int32)
-        if ids.size:
-            self._ocean.obey(ids, np.zeros((ids.size, 2)))
+        ids = np.flatnonzero(silent)
+        fresh = np.array([id for id in ids.tolist() if id not in self._silent], np.int32)
+        if fresh.size:
+            self._ocean.obey(fresh, np.zeros((fresh.size, 2)))
         self._log.silent = ids.tolist()
         for id in ids.tolist():
             self._silent.setdefault(id, int(self._said[id]))

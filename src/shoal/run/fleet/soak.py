@@ -16,12 +16,15 @@ from shoal.run.fleet.ocean import Ocean
 from shoal.run.fleet.order_storm import OrderStorm
 from shoal.run.fleet.paced import PacedSea
 from shoal.run.fleet.sea_watch import SeaWatch
+from shoal.run.fleet.second_opinion import SecondOpinion
 from shoal.run.fleet.vessel import Vessel, reading_once
 from shoal.run.fleet.virtual_mesh import Parcel, VirtualMesh
+from shoal.scenario.briefing import fleet_of
 from shoal.scenario.load import Source, load
 from shoal.scenario.schema import Scenario
 
 STEPS = 3_000  # of a soak, unless it is told otherwise
+SECOND = 4  # steps of a process from one decision that is made again to the next
 
 
 class Outcome(NamedTuple):
@@ -97,6 +100,8 @@ class Soak:
         self._ears = {p: self._ear() for p in self._vessels}
         self._told = self._vessels[0].aboard.buoys[0].told
         self._neighbors = self._vessels[0].aboard.buoys[0].neighbors
+        self._speeds = [scenario.fleets[fleet_of(scenario, id)].max_speed for id in range(scenario.agents)]
+        self._second = SecondOpinion(scenario)
         self._watch = SeaWatch(scenario, self._ocean)
         self._orders = OrderStorm(seed, scenario, len(setting.shares))
         for process, vessel in self._vessels.items():
@@ -136,8 +141,8 @@ class Soak:
         self._orders.blow(now)
         self._speak(now, tick)
         answers = self._hear_and_act(now)
+        self._ocean.follow(answers)
         for commands in answers:
-            self._ocean.obey(commands.ids, commands.wants)
             self._sea._said[commands.ids] = now
             self._watch.note(commands, now)
         self._sea._stop_the_silent()
@@ -189,17 +194,18 @@ class Soak:
                 self._mesh.listen(process, True)
             if process in self._saved:
                 continue
-            spoke = vessel.speak(tick.of(vessel.ids))
+            spoke = vessel.speak(tick)
             if spoke is None or vessel.tick is None:
                 continue
             if vessel.tick.step % self._scenario.report_steps:
                 demand("nobody speaks between reports", spoke, [])
                 continue
-            for data, truth in zip(spoke, truths(spoke, vessel.tick, self._told, time_step), strict=True):
-                said.append(Parcel(float(now), 0, data, truth, vessel.tick.step))
+            speakers = vessel.tick.readings["id"].tolist()
+            for id, data, truth in zip(speakers, spoke, truths(spoke, vessel.tick, self._told, time_step), strict=True):
+                said.append(Parcel(data, id, truth, vessel.tick.step))
                 senders.append(process)
         if said:
-            self._mesh.publish(said, senders)
+            self._mesh.publish(float(now), said, senders)
         self._mesh.disturb(now, time_step, tuple(0.0 for _ in self._told))
 
     def _hear_and_act(self, now: int) -> list[Commands]:
@@ -220,14 +226,19 @@ class Soak:
                 continue
             spoken = tick.step - self._scenario.network.delay
             spoken -= spoken % self._scenario.report_steps
-            heard = ear.check_thoughts(tick, spoken, vessel.thoughts, self._neighbors, self._scenario.time_step)
-            check_commands(commands, vessel.thoughts, self._orders.check(process, vessel, tick.step))
+            time_step = self._scenario.time_step
+            demand("every buoy decides", [len(each.ids) for each in vessel.thoughts], [len(tick.readings)])
+            (thought,) = vessel.thoughts
+            heard, nearest = ear.check_thought(tick, spoken, thought, self._neighbors, time_step)
+            if (tick.step + process) % SECOND == 0:
+                self._second.check(thought, tick.step % len(nearest), heard, nearest, tick.step)
+            check_commands(commands, thought, self._speeds, self._orders.check(process, vessel, tick.step))
             ear.forget(tick.step)
             ear.check_kept(vessel.aboard.inbox)
             self._hash.update(commands.wants.tobytes())
             self.decisions += len(commands.ids)
             if self._adversary.calm > RECOVERY and spoken >= 0:
-                demand("after a calm everybody is heard", heard, int(tick.alive.sum()))
+                demand("after a calm everybody is heard", len(heard), int(tick.alive.sum()))
             answers.append(commands)
         if self._adversary.calm > RECOVERY:
             demand("after a calm everybody decides", len(answers), len(self._vessels))

@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 from shoal.buoy import inbox
 from shoal.buoy.aboard import Aboard
 from shoal.buoy.paced import HALF
+from shoal.buoy.said import Near, Said
 from shoal.buoy.tether import Commands, Tick
-from shoal.core.messages import Own, Report
+from shoal.core.messages import Reading, Report
 from shoal.run.fleet.virtual_mesh import Parcel
 from shoal.scenario.schema import Scenario
 
@@ -40,30 +41,47 @@ def reading_once() -> Iterator[None]:
 
 
 class Thought(NamedTuple):
-    """What a buoy decided on, and what came of it: velocities [m/s]."""
+    """What n buoys decided on in a step, and what came of it.
 
-    me: Own
-    heard: list[Report]
+    ids, readings : which, and what they measured; said, near : what was said, and (n, k, 2) by whom of their neighbors
+    wants : velocities [m/s]; before, after : their memories
+    """
+
+    ids: list[int]
+    readings: list[Reading]
+    said: Said
+    near: Near
     step: int
-    wants: tuple[float, float]
+    wants: list[list[float]]
+    before: list[tuple[float, ...]]
+    after: list[tuple[float, ...]]
 
 
-class WatchedMind:
-    """A buoy's mind of which somebody sees every thought.
+class WatchedMinds:
+    """Minds of buoys of which somebody sees every thought.
 
     Parameters
     ----------
-    mind : to watch; thoughts : where they are kept
+    minds : to watch; ids : whose they are; thoughts : where they are kept
     """
 
-    def __init__(self, mind: Any, thoughts: list[Thought]) -> None:
-        self._mind, self._thoughts = mind, thoughts
-        self.told, self.begin, self.remembered, self.recall = mind.told, mind.begin, mind.remembered, mind.recall
+    def __init__(self, minds: Any, ids: tuple[int, ...], thoughts: list[Thought]) -> None:
+        self._minds, self._ids, self._thoughts = minds, ids, thoughts
+        self.told, self.begin, self.numbers, self.recall = minds.told, minds.begin, minds.numbers, minds.recall
 
-    def decide(self, me: Own, heard: list[Report], step: int) -> tuple[float, float]:
-        """As the mind does."""
-        wants: tuple[float, float] = self._mind.decide(me, heard, step)
-        self._thoughts.append(Thought(me, heard, step, wants))
+    def decide(
+        self, places: list[int], readings: list[Reading], said: Said, near: Near, step: int
+    ) -> list[list[float]]:
+        """As the minds do.
+
+        Parameters
+        ----------
+        places, readings, said, near, step : as theirs
+        """
+        before = list(map(self.numbers, places))
+        wants: list[list[float]] = self._minds.decide(places, readings, said, near, step)
+        ids, after = [self._ids[place] for place in places], list(map(self.numbers, places))
+        self._thoughts.append(Thought(ids, readings, said, near, step, wants, before, after))
         return wants
 
 
@@ -94,8 +112,10 @@ class Vessel:
         self.aboard = Aboard(self._scenario, self.ids, max_age=self._max_age)
         self.tick: Tick | None = None
         self.acts_at, self.done = math.inf, -1
-        for id, buoy in self.aboard.buoys.items():
-            buoy._mind = WatchedMind(buoy._mind, self.thoughts)
+        buoys = self.aboard.buoys
+        minds = WatchedMinds(buoys[self.ids[0]]._minds, self.ids, self.thoughts)
+        for id, buoy in buoys.items():
+            buoy._minds = minds
             if id in states:
                 buoy.restore(states[id])
 
@@ -108,7 +128,7 @@ class Vessel:
         if self.tick is not None or tick.step <= self.done or tick.step < self.away:
             return None
         step = max(tick.step, math.floor(tick.step + self.off))
-        self.tick = tick._replace(step=step)
+        self.tick = tick.of(self.ids)._replace(step=step)
         self.acts_at = max(float(tick.step), step + HALF - self.off)
         return self.aboard.speak(self.tick)
 

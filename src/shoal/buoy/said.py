@@ -1,0 +1,89 @@
+"""What was said, and who of the speakers are the k nearest: worked out for all buoys of a process at once."""
+
+from collections.abc import Sequence
+from functools import cache
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from shoal.core.agents import as_records, width
+from shoal.core.messages import Report
+from shoal.strategies.one_agent import Inbox
+
+Near = npt.NDArray[np.int64]
+
+
+@cache
+def _kind(told: tuple[str, ...]) -> Any:
+    return np.asarray(as_records(np.zeros((1, width(told))), told)).dtype
+
+
+class Said:
+    """One report of each of m speakers, as they came and as arrays.
+
+    Parameters
+    ----------
+    reports : in the order of ids
+    told : names of the fields that they tell
+    listeners : n, how many may hear them
+
+    Attributes
+    ----------
+    reports : as given
+    inbox : the same for compiled code
+    tells : (m + n, fields) what they tell, a part of `inbox`; the rows behind are for what listeners tell themselves
+    """
+
+    def __init__(self, reports: Sequence[Report], told: tuple[str, ...], listeners: int) -> None:
+        self.reports = reports
+        count = len(reports)
+        self.tells = np.zeros((count + listeners, width(told)))
+        if told and count:
+            self.tells[:count] = [each.told for each in reports]
+        numbers = [(each.x, each.y, each.vx, each.vy, each.time) for each in reports]
+        self.inbox = Inbox(
+            np.array([each.id for each in reports], np.int64),
+            np.array(numbers, np.float64).reshape(count, 5),
+            np.array([each.on_target for each in reports], np.bool_),
+            self.tells.view(_kind(told))[:, 0],
+        )
+
+    def nearest(self, ids: Any, x: Any, y: Any, most: Sequence[int], hears: Any = None) -> Near:
+        """Whom each of n listeners hears: the k nearest of the others that it can hear, ties to the lower id.
+
+        Parameters
+        ----------
+        ids, x, y : (n,) who listens, and where [m]
+        most : k of each
+        hears : (n, N) whom each can hear; None: everybody
+
+        Returns
+        -------
+        (n, k, 2) rows of the reports, ascending, and how many of them are nearer; -1: no more
+        """
+        speakers, numbers = self.inbox.id, self.inbox.numbers
+        with np.errstate(over="ignore"):  # who is infinitely far away is the farthest
+            dx = x[:, None] - numbers[:, 0]
+            dy = y[:, None] - numbers[:, 1]
+            square = dx * dx + dy * dy
+        square[ids[:, None] == speakers] = np.nan  # sorted behind all others
+        if hears is not None:
+            square[~hears[:, speakers]] = np.nan
+        counts = np.minimum(np.count_nonzero(square == square, axis=1), most)
+        order = np.argsort(square, axis=1, kind="stable")[:, : counts.max(initial=0)]
+        order[np.arange(order.shape[1]) >= counts[:, None]] = speakers.size
+        near = np.empty((*order.shape, 2), np.int64)
+        near[:, :, 1] = ranks = np.argsort(order, axis=1)
+        near[:, :, 0] = order[np.arange(len(order))[:, None], ranks]
+        near[near[:, :, 0] == speakers.size] = -1
+        return near
+
+    def heard(self, near: Near, ranked: bool = False) -> list[Report]:
+        """The reports of the neighbors (k, 2) of one listener, with their ranks if so asked."""
+        rows = [(row, rank) for row, rank in near.tolist() if row >= 0]
+        return [self.reports[row]._replace(rank=rank) if ranked else self.reports[row] for row, rank in rows]
+
+    def contact(self, near: Near) -> bool:
+        """Whether any of the neighbors (k, 2) of one listener is on target."""
+        return bool(self.inbox.on_target[near[near[:, 0] >= 0, 0]].any())
