@@ -4,6 +4,7 @@ from shoal.buoy import orderbook
 from shoal.buoy.aboard import Aboard
 from shoal.buoy.buoy import Buoy
 from shoal.buoy.compiled import CompiledMinds
+from shoal.buoy.hearing import Hearing
 from shoal.buoy.inbox import Inbox
 from shoal.buoy.orderbook import Orderbook
 from shoal.buoy.said import Said
@@ -65,7 +66,7 @@ MUTANTS = {
     "the farthest are heard": (Said, "nearest", "argsort(square", "argsort(-square", "k nearest"),
     "the first by id are heard": (Said, "nearest", "argsort(square", "argsort(0.0 * square", "k nearest"),
     "the nearest from west to east are heard": (Said, "nearest", "dx * dx + dy * dy", "dx * dx", "k nearest"),
-    "limited radios hear all": (Said, "nearest", "if hears is not None", "if False", "k nearest"),
+    "whoever is out of reach is heard": (Said, "nearest", "if reaches is not None", "if False", "k nearest"),
     "x and y are mixed up": (Said, "__init__", "(each.x, each.y,", "(each.y, each.x,", "k nearest"),
     "velocities are mixed up": (Said, "__init__", "each.vx, each.vy,", "each.vy, each.vx,", "what was said"),
     "times are not told": (Said, "__init__", "each.time)", "0.0)", "what was said"),
@@ -81,7 +82,8 @@ MUTANTS = {
         "return [[np.nan, y] for _, y in wants]",
         "commands are decisions",
     ),
-    "the dead are heard": (Aboard, "_said", "there[id]", "True", "k nearest"),
+    "the dead are heard": (Aboard, "_arrived", "there[id]", "True", "k nearest"),
+    "limited radios hear all": (Aboard, "_arrived", "if tick.hears is None", "if True", "k nearest"),
     "one buoy is silent": (Aboard, "speak", "in readings_of(tick):", "in readings_of(tick)[1:]:", "every buoy speaks"),
     "buoys speak between reports": (Aboard, "speak", "if tick.step % self._interval:", "if False:", "between reports"),
     "one buoy does not decide": (Aboard, "act", "dict(readings_of(tick))", "dict(readings_of(tick)[1:])", "an error"),
@@ -189,4 +191,19 @@ MUTANTS = {
     ),
     "minds take themselves for another": (CompiledMinds, "__init__", "[me.id,", "[0,", "strategy says"),
     "minds remember for another": (CompiledMinds, "recall", "[place,", "[0,", "goes on from what was"),
+}
+
+# The same of a fleet that keeps and relays reports.
+KEPT_MUTANTS = {
+    "what is kept is too young": (Hearing, "held", "step - self._max_age)", "step - self._max_age + 1)", "k nearest"),
+    "what did not reach is kept": (Hearing, "held", "if reached[id]", "", "k nearest"),
+    "the oldest is gone by": (
+        Hearing,
+        "held",
+        "found |= {id: report for id, report in inbox.of(then).items() if reached[id]}",
+        "found = {id: report for id, report in inbox.of(then).items() if reached[id]} | found",
+        "said",
+    ),
+    "nothing is kept": (Aboard, "act", "if self._keeps", "if False", "k nearest"),
+    "radios reach all": (Aboard, "_kept", "if tick.hears is None", "if True", "k nearest"),
 }

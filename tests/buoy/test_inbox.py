@@ -56,6 +56,14 @@ def test_what_is_of_no_use_is_counted_and_dropped(arrives, word):
     assert {step: dict(mine.of(step)) for step in range(20)} == before
 
 
+def test_it_says_what_it_keeps():
+    mine, said = inbox(), report(3, 7)
+    assert mine.put(said.to_bytes(), 7) == said
+    assert mine.put(said.to_bytes(), 7) == said
+    assert mine.put(report(3, 7, x=9.0).to_bytes(), 7) is None  # somebody says something else in its name
+    assert mine.put(report(3, 2).to_bytes(), 7) is None
+
+
 def test_an_older_one_after_a_newer_one_is_kept_and_counted():
     mine = inbox()
     mine.put(report(1, 9).to_bytes(), 9)

@@ -10,8 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.buoy.buoy import Buoy
+from shoal.buoy.hearing import Hearing
 from shoal.buoy.inbox import Inbox
 from shoal.buoy.orderbook import Orderbook
+from shoal.buoy.relay import Relay
 from shoal.buoy.said import Said
 from shoal.buoy.tether import Commands, Tick, readings_of
 from shoal.core.errors import ShoalError
@@ -19,6 +21,8 @@ from shoal.core.links import MOST_LINKED
 from shoal.scenario.commands import Command
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
+
+Reaches = npt.NDArray[np.bool_] | None  # (n, m) which of m reports reached each of n buoys; None: all
 
 
 class Aboard:
@@ -29,7 +33,9 @@ class Aboard:
     scenario : what the whole swarm is told
     ids : which agents they are
     run : number of the replicate
-    max_age : steps that a report may be old to be heard, beside the delay of the scenario's radios
+    max_age : steps that a report may be old to be heard, beside the delay of the scenario's radios; default: the
+        scenario's network.max_age
+    relays : whether they pass on what they hear, over network.hops hops: where a mesh does not reach all by itself
 
     Attributes
     ----------
@@ -42,7 +48,9 @@ class Aboard:
     ScenarioError, StrategyError : as Buoy
     """
 
-    def __init__(self, scenario: Source, ids: Sequence[int], *, run: int = 0, max_age: int = 0) -> None:
+    def __init__(
+        self, scenario: Source, ids: Sequence[int], *, run: int = 0, max_age: int | None = None, relays: bool = False
+    ) -> None:
         scenario = load(scenario)
         self.ids = self.present = tuple(ids)
         self.orderbook: Orderbook | None = None
@@ -50,10 +58,14 @@ class Aboard:
         self.unread = 0  # orders that came without a key to open them
         self.buoys = Buoy.several(scenario, ids, run=run)
         self._delay, self._interval = scenario.network.delay, scenario.report_steps
-        self._max_age, self._agents = max_age, scenario.agents
-        kept = self._delay + self._interval + max_age
-        self._told = crew_of(scenario).told
+        self._agents, self._told = scenario.agents, crew_of(scenario).told
+        self._max_age = scenario.network.max_age if max_age is None else max_age
+        kept = self._delay + self._interval + self._max_age
         self.inbox = Inbox(scenario.agents, self._told, scenario.time_step, kept)
+        self._relay = Relay(self.ids, scenario.network.hops if relays else 1)
+        self._keeps = scenario.network.max_age > 0
+        self._hearing = {id: Hearing(self._max_age) for id in ids}
+        self._hearing_before: dict[int, Hearing] = {}
         self._before = {id: buoy.state for id, buoy in self.buoys.items()}
 
     def begin(self, tick: Tick) -> Commands:
@@ -72,9 +84,13 @@ class Aboard:
         return said
 
     def hear(self, messages: Iterable[bytes], step: int) -> None:
-        """Take what the mesh brought."""
+        """Take what the mesh brought, from its authors or from others who passed it on."""
         for data in messages:
-            self.inbox.put(data, step)
+            self._relay.take(data, self.inbox, step)
+
+    def relayed(self) -> list[bytes]:
+        """What they pass on of what they heard, to be published at once."""
+        return self._relay.waiting()
 
     def heard(self, tick: Tick) -> dict[int, int]:
         """Of whom a report can be heard at a step, and when it was said."""
@@ -131,16 +147,36 @@ class Aboard:
         self._before = {buoy.id: buoy.state for buoy in here}
         wants: Sequence[Sequence[float]] = []
         if here:
-            wants = Buoy.decide_together(here, list(measured.values()), self._said(tick), tick.hears, tick.step)
+            said, reaches = self._kept(tick) if self._keeps else self._arrived(tick)
+            wants = Buoy.decide_together(here, list(measured.values()), said, reaches, tick.step)
         self.inbox.forget(tick.step)
+        self._relay.forget(tick.step - self._delay - self._interval - self._max_age)
         return self._commands(tick, wants)
 
-    def _said(self, tick: Tick) -> Said:
-        """What can be heard at a step; of those who speak in it, who is gone is not."""
+    def _arrived(self, tick: Tick) -> tuple[Said, Reaches]:
+        """What can be heard where nothing is kept: what was said last, or not long before if it is late; by whom."""
         then = self.spoken(tick.step)
-        said = self.inbox.newest(then, self._max_age)
-        there = tick.alive.tolist()
-        return Said([said[id] for id in sorted(said) if then != tick.step or there[id]], self._told, len(tick.readings))
+        newest, there = self.inbox.newest(then, self._max_age), tick.alive.tolist()
+        reports = [newest[id] for id in sorted(newest) if then != tick.step or there[id]]
+        said = Said(reports, self._told, len(tick.readings))
+        return said, None if tick.hears is None else tick.hears[:, said.inbox.id]
+
+    def _kept(self, tick: Tick) -> tuple[Said, Reaches]:
+        """The newest that each has of the others where reports are kept, whoever is there by now."""
+        then, ids = self.spoken(tick.step), tick.readings["id"].tolist()
+        self._hearing_before = {id: self._hearing[id].copy() for id in ids}
+        held = []
+        for number, id in enumerate(ids):
+            hearing = self._hearing[id]
+            if then >= 0:
+                hearing.reach(then, tick.alive if tick.hears is None else tick.hears[number])
+            held.append([(it.id, it.time, it) for it in hearing.held(self.inbox, then).values()])
+        said = {(id, time): report for each in held for id, time, report in each}
+        rows = {key: row for row, key in enumerate(sorted(said))}
+        reaches = np.zeros((len(held), len(rows)), bool)
+        for number, each in enumerate(held):
+            reaches[number, [rows[id, time] for id, time, _ in each]] = True
+        return Said([said[key] for key in rows], self._told, len(held)), reaches
 
     def links(self, ids: npt.NDArray[np.int32]) -> npt.NDArray[np.bool_] | None:
         """Whom each of n buoys heard when it decided last, (n, N); None of more agents than links are kept of."""
@@ -160,6 +196,7 @@ class Aboard:
         """Forget the last `act`: the step begins again."""
         for id, state in self._before.items():
             self.buoys[id].restore(state)
+        self._hearing |= self._hearing_before
 
     def _commands(self, tick: Tick, wants: Sequence[Sequence[float]]) -> Commands:
         ids = tick.readings["id"].astype(np.int32)

@@ -262,7 +262,7 @@ class Buoy:
 
     @staticmethod
     def decide_together(
-        buoys: Sequence["Buoy"], readings: Sequence[Reading], said: Said, hears: Any, step: int
+        buoys: Sequence["Buoy"], readings: Sequence[Reading], said: Said, reaches: Any, step: int
     ) -> list[list[float]]:
         """Let buoys that were made together decide; return the velocities wanted [m/s], before limits.
 
@@ -270,7 +270,7 @@ class Buoy:
         ----------
         buoys, readings : n of them, and what their instruments say at the start of the step
         said : the reports that reached them
-        hears : (n, N) whom each can hear; None: whomever its reports reach
+        reaches : (n, m) which of them reached each, one of each speaker at most; None: all
         step : number of the step, from 0
 
         Raises
@@ -281,7 +281,7 @@ class Buoy:
             buoy._check(reading, step)
             buoy.follow(step)
         ids, x, y = np.array([(buoy.id, it.x, it.y) for buoy, it in zip(buoys, readings, strict=True)], float).T
-        near = said.nearest(ids, x, y, [buoy.neighbors for buoy in buoys], hears)
+        near = said.nearest(ids, x, y, [buoy.neighbors for buoy in buoys], reaches)
         wants: list[list[float]] = [[0.0, 0.0]] * len(buoys)
         for rows in _of_one_mind(buoys):
             one, places = buoys[rows[0]], [buoys[n]._place for n in rows]

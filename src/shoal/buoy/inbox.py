@@ -34,8 +34,12 @@ class Inbox:
         self._said: dict[int, dict[int, Report]] = {}
         self._last: dict[int, int] = {}
 
-    def put(self, data: bytes, now: int) -> None:
+    def put(self, data: bytes, now: int) -> Report | None:
         """Keep a report that arrived, or count why not; nothing that arrives raises an error.
+
+        Returns
+        -------
+        the report if it is kept, now or since before, else None
 
         Parameters
         ----------
@@ -46,11 +50,11 @@ class Inbox:
             report = Report.from_bytes(data, self._told)
         except MessageError:
             self.counts["damaged"] += 1
-            return
+            return None
         counts, id, steps = self.counts, report.id, report.time / self._time_step
         if id >= self._agents or not 0.0 <= steps < 2**53 or abs(steps - round(steps)) > 1e-3:
             counts["strange"] += 1
-            return
+            return None
         step = round(steps)
         if step > now + AHEAD:
             counts["early"] += 1
@@ -64,6 +68,7 @@ class Inbox:
             counts["new"] += 1
             counts["reordered"] += step < last
             self._last[id] = max(step, last)
+        return report if self._said.get(step, {}).get(id) == report else None
 
     def step_of(self, report: Report) -> int:
         """The step at which a report was said."""

@@ -20,7 +20,7 @@ def _kind(told: tuple[str, ...]) -> Any:
 
 
 class Said:
-    """One report of each of m speakers, as they came and as arrays.
+    """m reports, as they came and as arrays: one of each speaker, or several of which each listener hears one.
 
     Parameters
     ----------
@@ -49,14 +49,14 @@ class Said:
             self.tells.view(_kind(told))[:, 0],
         )
 
-    def nearest(self, ids: Any, x: Any, y: Any, most: Sequence[int], hears: Any = None) -> Near:
+    def nearest(self, ids: Any, x: Any, y: Any, most: Sequence[int], reaches: Any = None) -> Near:
         """Whom each of n listeners hears: the k nearest of the others that it can hear, ties to the lower id.
 
         Parameters
         ----------
         ids, x, y : (n,) who listens, and where [m]
         most : k of each
-        hears : (n, N) whom each can hear; None: everybody
+        reaches : (n, m) which of the reports reached each, one of each speaker at most; None: all
 
         Returns
         -------
@@ -68,8 +68,8 @@ class Said:
             dy = y[:, None] - numbers[:, 1]
             square = dx * dx + dy * dy
         square[ids[:, None] == speakers] = np.nan  # sorted behind all others
-        if hears is not None:
-            square[~hears[:, speakers]] = np.nan
+        if reaches is not None:
+            square[~reaches] = np.nan
         counts = np.minimum(np.count_nonzero(square == square, axis=1), most)
         order = np.argsort(square, axis=1, kind="stable")[:, : counts.max(initial=0)]
         order[np.arange(order.shape[1]) >= counts[:, None]] = speakers.size

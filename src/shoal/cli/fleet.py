@@ -88,7 +88,7 @@ def fleet(
     mesh
         zenoh, between processes; or memory, all in this process and in lockstep.
     max_age
-        Steps that a report may be old to be heard; default 0 with --lockstep, else 1.
+        network.max_age: steps that a report may be old to be gone by; by the clock 1 at least unless this is said.
     plain
         Let buoys decide without a compiler: they start at once, with a third of the memory.
     watch

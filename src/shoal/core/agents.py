@@ -124,6 +124,10 @@ class Memories(NamedTuple):
     arrived: npt.NDArray[Any]
 
 
+class KeptMemories(Memories):
+    """Memories where reports are kept: what is compiled for them goes by a report of its own for each pair."""
+
+
 NEVER = 1 << 62  # a step that does not come
 
 

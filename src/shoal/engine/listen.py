@@ -47,7 +47,7 @@ def choose_leaders(arrived, listeners, links, params, agents, leader, lowest):
         other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, None)
         if contract.leads(other, params):
             for i in range(lanes):
-                me = _listener(listeners, i)
+                me = listener(listeners, i)
                 rank = contract.rank_of(links.rank, j, i, params)
                 other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
                 priority = contract.priority(me, other, params)
@@ -69,7 +69,7 @@ def sum_influence(arrived, listeners, links, params, agents, sums):
     for j in range(agents):
         if contract.has_influence(params):
             for i in range(lanes):
-                me = _listener(listeners, i)
+                me = listener(listeners, i)
                 rank = contract.rank_of(links.rank, j, i, params)
                 other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
                 pushed = contract.influence(me, other, params)
@@ -82,7 +82,7 @@ def sum_influence(arrived, listeners, links, params, agents, sums):
 
 
 @kernel
-def _listener(listeners, i):
+def listener(listeners, i):
     """Lane i of a block, as far as pairs need it: listeners in the inner loops have no briefing and no truth."""
     briefing = Briefing(0, 0.0, 0.0, 0.0, 0.0, 0.0, False, 0.0, 0.0)
     truth = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

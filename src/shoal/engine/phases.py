@@ -16,7 +16,7 @@ from shoal.core.plugin_errors import plugin_errors
 from shoal.engine.ahead import compile_ahead
 from shoal.engine.frames import keep_frame, keep_links
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
-from shoal.engine.nature import disturb_all, drift_targets, hide, launch_agent, sail_all, stop_target
+from shoal.engine.nature import disturb_all, drift_targets, hide, launch_agent, receive, sail_all, stop_target
 from shoal.engine.stage import (
     FRAMES,
     NATURE,
@@ -49,6 +49,7 @@ from shoal.world.position import age_errors, locate
 from shoal.world.presence import update_presence
 from shoal.world.radio import (
     adapt_degree,
+    arrival_key,
     deafen,
     hide_far_away,
     limit_links,
@@ -56,8 +57,8 @@ from shoal.world.radio import (
     said,
     send,
     speaks,
-    spoken,
 )
+from shoal.world.reception import collects
 from shoal.world.sensing import sense
 from shoal.world.targets.dispatch import advance_target
 
@@ -101,13 +102,16 @@ def link(stage, number, first, batch, key):
     swarm = part(stage, SWARM)
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
-    find_links(stage, scratch, world, swarm, radio, part(stage, NATURE).effects, number, first)
+    find_links(stage, scratch, world, swarm, radio, number, first, True)
     return 0
 
 
 @kernel
-def find_links(stage, scratch, world, swarm, radio, effects, number, first):
-    """Link the agents from `first` on to those whose reports may reach them, ties and losses aside."""
+def find_links(stage, scratch, world, swarm, radio, number, first, keeps):
+    """Link the agents from `first` on to those whose reports may reach them, ties and losses aside.
+
+    keeps : whether agents remember what they hear now; else this is but a look
+    """
     links = scratch.links
     phases = part(stage, PHASES)
     last = first + links.reach.size
@@ -116,7 +120,7 @@ def find_links(stage, scratch, world, swarm, radio, effects, number, first):
         links, reports.x, reports.y, swarm.fix_x[first:last], swarm.fix_y[first:last], first, world.agents
     )
     if world.disturbed:
-        deafen(links, effects, first, world.agents)
+        deafen(links, part(stage, NATURE).effects, first, world.agents)
     range_square = radio.range_square
     if world.inexact:
         hide_far_away(links, swarm, range_square, first, world.agents)
@@ -125,6 +129,8 @@ def find_links(stage, scratch, world, swarm, radio, effects, number, first):
         enter(phases.hide, stage, number, first, 0, 0)
     if radio.limited:
         limit_links(links, swarm, radio, first, world.agents, number, range_square)
+    if collects(radio):
+        enter(phases.receive, stage, number, first, 1 if keeps else 0, 0)
     if radio.limited or world.coastal:
         link_nearest(links, links.wanted, world.agents)
     else:
@@ -149,9 +155,8 @@ def settle_links(links, world, swarm, radio, run, number, first):
         changed = settle_ties(links, links.wanted, world.agents)
     else:
         changed = settle_ties(links, swarm.neighbors[first : first + links.reach.size], world.agents)
-    if radio.loss > 0.0:
-        key = split(split(split(run.seed, 0), run.run), spoken(radio, number) + radio.delay)
-        lose_reports(links, radio, key, first, world.agents)
+    if radio.loss > 0.0 and not collects(radio):
+        lose_reports(links, radio, arrival_key(radio, run, number), first, world.agents)
         changed = True
     if changed:
         rank_heard(links, world.agents)
@@ -287,20 +292,21 @@ def look_at_links(stage, number, first, frame, key):
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
     links = scratch.links
-    find_links(stage, scratch, world, swarm, radio, part(stage, NATURE).effects, number, first)
+    find_links(stage, scratch, world, swarm, radio, number, first, False)
     count_heard(links, world.agents)
     settle_links(links, world, swarm, radio, part(stage, RUN), number, first)
     keep_links(frames, frame, links, first, world.agents)
     return 0
 
 
-def addresses(world: World, frames: bool = False) -> Addresses:
+def addresses(world: World, frames: bool = False, collecting: bool = False) -> Addresses:
     """Compile the phases that a run needs, or load them from the cache; the others are nowhere, at 0.
 
     Parameters
     ----------
     world : what there is in the run
     frames : whether frames are kept, or looked at
+    collecting : whether radios relay or keep reports
 
     Raises
     ------
@@ -313,6 +319,7 @@ def addresses(world: World, frames: bool = False) -> Addresses:
         (record_frame, frames),
         (link, True),
         (hide, world.coastal),
+        (receive, collecting),
         (settle, True),
         (record_links, frames),
         (move_agents, True),

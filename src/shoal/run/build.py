@@ -22,6 +22,7 @@ from shoal.world.disturbances.catalogue import KINDS as DISTURBANCES
 from shoal.world.disturbances.catalogue import NUMBERS as DISTURBANCE_NUMBERS
 from shoal.world.disturbances.contract import Nature
 from shoal.world.radio import new_radio
+from shoal.world.reception import collecting
 from shoal.world.sea.field import STILL
 from shoal.world.sea.sea import Leeway, Sea
 from shoal.world.targets.catalogue import KINDS, NUMBERS, TARGET_FIELDS
@@ -126,13 +127,19 @@ def build_radio(scenario: Scenario, crew: Crew, world: World, lanes: int) -> Any
     radio = new_radio(
         lanes,
         crew.told,
-        limited=network.range is not None or network.delay > 0 or scenario.report_steps > 1 or world.mortal,
+        limited=network.range is not None
+        or network.delay > 0
+        or scenario.report_steps > 1
+        or world.mortal
+        or network.collects,
         reach=network.range or math.inf,
         delay=network.delay,
         loss=network.loss,
         interval=scenario.report_steps,
         degree=(adaptive.fewest, adaptive.most, adaptive.patience) if adaptive else None,
     )
+    if network.collects:
+        radio = collecting(radio, scenario.agents, network.max_age, network.hops)
     everybody = np.repeat([strategy.hears_all for strategy in crew.strategies], scenario.counts)
     for limit in (radio.fewest, radio.most):
         limit[: scenario.agents][everybody] = scenario.agents - 1

@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from shoal.compiler.late import compiles
 from shoal.compiler.placed import Placed
-from shoal.core.agents import NEVER, Memories, as_records
+from shoal.core.agents import NEVER, KeptMemories, Memories, as_records
 from shoal.core.errors import ScenarioError, StrategyError
 from shoal.core.plugin_errors import plugin_errors
 from shoal.core.text import plain
@@ -88,12 +89,13 @@ class Simulation:
         self._radio = build_radio(scenario, self.crew, self.world, self._swarm.x.size)
         self._targets, self.tracks = build_targets(scenario, tracks)
         self._nature = build_nature(scenario, self._swarm.x.size)
-        memories = Memories(
+        network = scenario.network
+        memories = (KeptMemories if network.max_age else Memories)(
             memory=as_records(self._swarm.memory, self.memory_fields),
             told=as_records(self._swarm.told, self.crew.told),
             arrived=as_records(self._radio.told, self.crew.told),
         )
-        plain = Memories(*(np.asarray(each) for each in memories))
+        plain = type(memories)(*(np.asarray(each) for each in memories))
         self._memories = plain if compiles() else memories  # numba takes recarrays, too, but slowly
         batches = min(BATCHES, scenario.steps)
         self._tally = new_tally(scenario.steps, batches, len(scenario.fleets), scenario.agents, len(scenario.targets))
@@ -101,10 +103,10 @@ class Simulation:
         self.swarm, self.targets, self.memories = read_only(self._swarm), read_only(self._targets), read_only(memories)
         self.moment: State = read_only(self._state)
         self.tally = self.moment.tally
-        self._scratch = new_scratch(self.world, self._swarm.x.size, self.crew.sums, self.crew.ranked)
+        self._scratch = new_scratch(self.world, self._swarm.x.size, self.crew.sums, self.crew.ranked, network.collects)
         self._begin, self._rollout = self.crew.compiled(begin_run, rollout)
         self._which = Run(np.uint64(scenario.seed), run, scenario.steps)
-        self._phases = addresses(self.world)
+        self._phases = addresses(self.world, collecting=network.collects)
         self._placed = Placed(self._stage(self._new_frames(0)))
         self._looking = Placed(self._stage(self._new_frames(1)))
         starts = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
@@ -226,10 +228,18 @@ class Simulation:
         """Settings of the radio, and what is on the air; read-only."""
         return read_only(self._radio)
 
+    @property
+    def reached(self) -> npt.NDArray[np.bool_]:
+        """Whose report (row) reaches whom (column) in the step looked at or done last, (N, N), relays included.
+
+        Only where radios relay or keep reports is it known; what agents have from before is not part of it.
+        """
+        return np.asarray(self._scratch.hops[:, : self.scenario.agents] > 0)
+
     def _keep_frames(self) -> None:
         """Compile the phases that frames need, which runs without frames do without."""
         if not self._phases.record_frame:
-            self._phases = addresses(self.world, frames=True)
+            self._phases = addresses(self.world, frames=True, collecting=self.scenario.network.collects)
 
     def _settle(self) -> None:
         """Make the state true after a change; where everybody is always there, the engine leaves a lot out."""

@@ -169,6 +169,18 @@ class Network(Frozen):
         default=None, description="a kind of radio, whose airtime and duty cycle are told; default: not told"
     )
     adaptive: AdaptiveDegree | None = Field(default=None, description="k adapts in time; neighbors is where it starts")
+    max_age: Annotated[int, Field(strict=True, ge=0, le=1000)] = Field(
+        default=0,
+        description="steps that a report may be older than the newest that can have arrived, where that was not heard",
+    )
+    hops: Annotated[int, Field(strict=True, ge=1, le=100)] = Field(
+        default=1, description="over how many hops a report comes: agents pass on, at once, what they hear"
+    )
+
+    @property
+    def collects(self) -> bool:
+        """Whether agents choose their k nearest among the reports that they have: relayed and kept ones, too."""
+        return self.max_age > 0 or self.hops > 1
 
 
 class Motion(Frozen):
@@ -376,6 +388,16 @@ class Scenario(Frozen):
             raise ValueError(
                 f"network.interval is {interval:g} s, but agents speak once in a step of {self.time_step:g} s at most; "
                 "raise it, or lower time_step"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _reports_wait_for_nobody(self) -> Self:
+        if self.network.collects and self.motion.update_order == "sequential":
+            name = "max_age" if self.network.max_age else "hops"
+            raise ValueError(
+                f"network.{name} is {getattr(self.network, name)}, but motion.update_order is sequential: agents hear "
+                f"what others have just done, which nobody keeps or relays; write synchronous, or leave {name} out"
             )
         return self
 

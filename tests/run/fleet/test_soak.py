@@ -9,7 +9,7 @@ from functools import cache
 import pytest
 import soak as benchmark
 
-from mutants import MUTANTS
+from mutants import KEPT_MUTANTS, MUTANTS
 from scenarios import small
 from shoal.buoy.inbox import Inbox
 from shoal.core.messages import Report
@@ -17,6 +17,9 @@ from shoal.run.fleet.adversary import Adversary
 from shoal.run.fleet.soak import Outcome, Setting, soak
 
 FLEET = small(16, 5)
+KEEPING = small(
+    16, 5, {"network.range": 6.0, "network.loss": 0.3, "network.max_age": 2, "network.hops": 2, "network.interval": 0.2}
+)
 STEPS = 250
 SEEDS = (53, 51)  # perfect radios, and ones that reach not far, late and now and then
 
@@ -30,10 +33,10 @@ def changed(function, old, new):
     return space[function.__name__]
 
 
-def soaked_with(monkeypatch, place, name, old, new):
+def soaked_with(monkeypatch, place, name, old, new, fleet=FLEET):
     """How the first seed ends in which this mutant breaks an invariant, or the last."""
     monkeypatch.setattr(place, name, changed(getattr(place, name), old, new))
-    outcomes = (soak(seed, FLEET, STEPS) for seed in SEEDS)
+    outcomes = (soak(seed, fleet, STEPS) for seed in SEEDS)
     return next((outcome for outcome in outcomes if outcome.broken), None)
 
 
@@ -43,6 +46,18 @@ def test_mutants_are_caught(mutant, monkeypatch):
     outcome = soaked_with(monkeypatch, *broken)
     assert outcome is not None
     assert word in outcome.broken
+
+
+@pytest.mark.parametrize("mutant", KEPT_MUTANTS)
+def test_mutants_of_what_is_kept_are_caught(mutant, monkeypatch):
+    *broken, word = KEPT_MUTANTS[mutant]
+    outcome = soaked_with(monkeypatch, *broken, fleet=KEEPING)
+    assert outcome is not None
+    assert word in outcome.broken
+
+
+def test_who_keeps_and_relays_breaks_nothing():
+    assert [soak(seed, KEEPING, STEPS).broken for seed in SEEDS] == [None, None]
 
 
 @cache

@@ -132,6 +132,13 @@ class Ear:
         rows = np.frombuffer(b"".join([found[id] for id in sorted(found)])).reshape(len(found), -1 if found else 7)
         return rows if present is None else rows[present[rows[:, 0].astype(int)]]
 
+    def candidates(self, tick: Tick, spoken: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.bool_]]:
+        """Reports in the order of speakers, a row each, and which of them reach each buoy, (n, M)."""
+        heard = self.hears(spoken, tick.alive if spoken == tick.step else None)
+        if tick.hears is None:
+            return heard, np.ones((len(tick.readings), len(heard)), bool)
+        return heard, tick.hears[:, heard[:, 0].astype(int)]
+
     def check_thought(
         self, tick: Tick, spoken: int, thought: Thought, neighbors: int, time_step: float
     ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
@@ -149,17 +156,16 @@ class Ear:
         demand("every buoy decides", thought.ids, rows["id"].tolist())
         demand("a buoy goes by its own clock", thought.step, tick.step)
         demand("a buoy believes its instruments", thought.readings, [row[1:] for row in rows.tolist()])
-        heard = self.hears(spoken, tick.alive if spoken == tick.step else None)
+        heard, reached = self.candidates(tick, spoken)
         ids, (x, y) = heard[:, 0].astype(int), heard[:, 1:3].T
         square = (rows["x"][:, None] - x) * (rows["x"][:, None] - x) + (rows["y"][:, None] - y) * (
             rows["y"][:, None] - y
         )
         square[ids == rows["id"][:, None]] = np.inf
-        if tick.hears is not None:
-            square[~tick.hears[:, ids]] = np.inf
+        square[~reached] = np.inf
         nearest = np.argsort(square, axis=1, kind="stable")[:, :neighbors]
-        reached = np.count_nonzero(square < np.inf, axis=1)[:, None]
-        nearest[np.arange(nearest.shape[1]) >= reached] = len(heard)  # nobody's row, behind all others
+        count = np.count_nonzero(square < np.inf, axis=1)[:, None]
+        nearest[np.arange(nearest.shape[1]) >= count] = len(heard)  # nobody's row, behind all others
         nearest.sort(axis=1)
         nearest[nearest == len(heard)] = -1
         content, found = _content(thought.said, heard.shape[1]), thought.near[:, :, 0]
@@ -171,6 +177,34 @@ class Ear:
                 if not np.array_equal(one, other):
                     _accuse(f"buoy {id} in step {tick.step}", one, other, neighbors, steps, time_step)
         return heard, nearest
+
+
+class KeptEar(Ear):
+    """The same where a scenario keeps reports (network.max_age): each buoy has what reached it, the dead's too."""
+
+    def __init__(self, agents: int, kept: int, max_age: int) -> None:
+        super().__init__(agents, kept, max_age)
+        self._reached: list[tuple[int, int, npt.NDArray[np.bool_]]] = []  # step, listener, speakers
+
+    def candidates(self, tick: Tick, spoken: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.bool_]]:
+        """Every report in the window of the age rule, and which of them is the newest that reached each buoy."""
+        listeners = tick.readings["id"].tolist()
+        everywhere = [tick.alive] * len(listeners)
+        reach = everywhere if tick.hears is None else tick.hears
+        self._reached = [each for each in self._reached if each[0] >= spoken - self._max_age]
+        self._reached += [(spoken, id, row) for id, row in zip(listeners, reach, strict=True)]
+        window = range(max(0, spoken - self._max_age), spoken + 1)
+        said = sorted((id, step) for step in window for id in self._said.get(step, {}))
+        newest = np.zeros((len(listeners), len(said)), bool)
+        for n, id in enumerate(listeners):
+            mine: dict[int, int] = {}
+            rows = [(step, row) for step, listener, row in self._reached if listener == id]
+            for place, (speaker, step) in enumerate(said):  # later ones are newer
+                if any(then == step and row[speaker] for then, row in rows):
+                    mine[speaker] = place
+            newest[n, list(mine.values())] = True
+        truths = np.frombuffer(b"".join([self._said[step][id] for id, step in said]))
+        return truths.reshape(len(said), -1 if said else 7), newest
 
 
 def _content(said: Said, columns: int) -> npt.NDArray[np.float64]:

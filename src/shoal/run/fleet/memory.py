@@ -12,10 +12,10 @@ class InMemory:
     Parameters
     ----------
     scenario : of the fleet
-    max_age : steps that a report may be old to be heard
+    max_age : steps that a report may be old to be heard; default: the scenario's
     """
 
-    def __init__(self, scenario: Scenario, max_age: int = 0) -> None:
+    def __init__(self, scenario: Scenario, max_age: int | None = None) -> None:
         self._aboard = Aboard(scenario, range(scenario.agents), max_age=max_age)
         self._mesh = MemoryMesh([])
 

@@ -71,8 +71,12 @@ class Ocean:
         """What the coming step begins with, for all buoys that are there."""
         everybody = self.readings()
         alive = self.alive
-        hears = None if self.ideal else unpacked(self.simulation.look().links[0])[alive]
-        return Tick(self.number, turn, everybody[alive], alive, hears)
+        return Tick(self.number, turn, everybody[alive], alive, None if self.ideal else self._hears()[alive])
+
+    def _hears(self) -> npt.NDArray[np.bool_]:
+        """Whom each agent hears in the coming step, (N, N); where they keep reports, or relay, who reaches each."""
+        links = unpacked(self.simulation.look().links[0])
+        return self.simulation.reached.T if self.simulation.scenario.network.collects else links
 
     def readings(self) -> npt.NDArray[np.void]:
         """What all instruments say, those of absent agents too, (N,) of READINGS."""

@@ -39,7 +39,7 @@ class Terms:
     speed : times real time; in lockstep, and in memory: at most, default as fast as it goes
     kill : who is killed when, BUOY@STEP
     mesh : "zenoh", between processes; "memory", all in this process, which is always in lockstep
-    max_age : steps that a report may be old to be heard; default: 0 in lockstep, else 1
+    max_age : network.max_age of the scenario; default: as it says, and by the clock 1 at least on board
     plain : whether buoys decide without a compiler: they start at once, with less memory
     trust : whose orders they obey, and whom they hear
     """
@@ -99,7 +99,9 @@ def run_fleet(
         key_in(terms.trust.command_key)
     by_clock = not terms.in_lockstep
     period = scenario.time_step / (terms.speed or 1.0)
-    max_age = terms.max_age if terms.max_age is not None else int(by_clock)
+    if terms.max_age is not None:
+        scenario = load(scenario, **{"network.max_age": terms.max_age})
+    max_age = max(scenario.network.max_age, int(by_clock and terms.max_age is None))
     notes: list[str] = []
     report = progress or (lambda done, total: None)
     with ExitStack() as stack:

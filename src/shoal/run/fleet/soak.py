@@ -10,7 +10,7 @@ import numpy as np
 
 from shoal.buoy.tether import BEGIN, Commands, Tick
 from shoal.run.fleet.adversary import RECOVERY, Adversary, Incident
-from shoal.run.fleet.invariants import BrokenInvariantError, Ear, check_commands, demand, truths
+from shoal.run.fleet.invariants import BrokenInvariantError, Ear, KeptEar, check_commands, demand, truths
 from shoal.run.fleet.log import Log
 from shoal.run.fleet.ocean import Ocean
 from shoal.run.fleet.order_storm import OrderStorm
@@ -72,7 +72,7 @@ class Setting:
         cuts = [agents * p // processes for p in range(processes + 1)]
         changed = {**dict(scenario), "network": network, "seed": seed, "steps": steps}
         shares = [list(range(a, b)) for a, b in pairwise(cuts)]
-        return cls(Scenario.model_validate(changed), shares, int(chance.integers(0, 4)))
+        return cls(Scenario.model_validate(changed), shares, max(network.max_age, int(chance.integers(0, 4))))
 
 
 class Soak:
@@ -238,7 +238,8 @@ class Soak:
             self._hash.update(commands.wants.tobytes())
             self.decisions += len(commands.ids)
             if self._adversary.calm > RECOVERY and spoken >= 0:
-                demand("after a calm everybody is heard", len(heard), int(tick.alive.sum()))
+                speakers = np.unique(heard[:, 0].astype(int))
+                demand("after a calm everybody is heard", int(tick.alive[speakers].sum()), int(tick.alive.sum()))
             answers.append(commands)
         if self._adversary.calm > RECOVERY:
             demand("after a calm everybody decides", len(answers), len(self._vessels))
@@ -246,7 +247,8 @@ class Soak:
 
     def _ear(self) -> Ear:
         scenario, max_age = self._scenario, self._setting.max_age
-        return Ear(scenario.agents, scenario.network.delay + scenario.report_steps + max_age, max_age)
+        ear = KeptEar if scenario.network.max_age else Ear
+        return ear(scenario.agents, scenario.network.delay + scenario.report_steps + max_age, max_age)
 
 
 def soak(seed: int, source: Source = "oceans2020", steps: int = STEPS) -> Outcome:
