@@ -99,3 +99,23 @@ def test_noise_is_survived():
         mine.put(bytes(noise), 5)
     assert mine.counts["new"] == 0
     assert sum(mine.counts.values()) == 2000
+
+
+def test_who_was_ahead_says_the_same_step_again_and_that_counts():
+    mine = inbox()
+    for data, word in (
+        (report(3, 9, x=1.0), "new"),
+        (report(3, 9, x=2.0), "changed"),
+        (report(3, 9, x=2.0), "duplicate"),
+    ):
+        before = mine.counts[word]
+        mine.put(data.to_bytes(), 7)
+        assert mine.counts[word] == before + 1
+    assert mine.of(9) == {3: report(3, 9, x=2.0)}
+
+
+def test_what_was_heard_by_a_clock_that_was_ahead_is_forgotten_when_it_is_set_back():
+    mine = inbox()
+    mine.put(report(3, 40).to_bytes(), 40)
+    mine.forget(12)
+    assert mine.of(40) == {}

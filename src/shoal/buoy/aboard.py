@@ -18,6 +18,7 @@ from shoal.buoy.said import Said
 from shoal.buoy.tether import Commands, Tick, readings_of
 from shoal.core.errors import ShoalError
 from shoal.core.links import MOST_LINKED
+from shoal.core.messages import Reading
 from shoal.scenario.commands import Command
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import Source, load
@@ -67,6 +68,14 @@ class Aboard:
         self._hearing = {id: Hearing(self._max_age) for id in ids}
         self._hearing_before: dict[int, Hearing] = {}
         self._before = {id: buoy.state for id, buoy in self.buoys.items()}
+
+    def warm(self) -> None:
+        """Decide once, so that what must be compiled is, and forget it."""
+        buoy = self.buoys[self.ids[0]]
+        state = buoy.state
+        reading = Reading(0.0, 0.0, 0.0, 0.0, False)
+        buoy.decide(reading, [buoy.report(reading, 0)._replace(id=buoy.id + 1)], 0)
+        buoy.restore(state)
 
     def begin(self, tick: Tick) -> Commands:
         """Set up memories where the buoys lie; nothing is wanted yet."""

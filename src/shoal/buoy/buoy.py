@@ -258,7 +258,7 @@ class Buoy:
                 newest[each.id] = each
         said = Said([newest[id] for id in sorted(newest)], self.told, 1)
         ((vx, vy),) = Buoy.decide_together([self], [reading], said, None, step)
-        return Decision(*self._limited(reading, vx, vy), report)
+        return Decision(*self.limited(reading, vx, vy), report)
 
     @staticmethod
     def decide_together(
@@ -337,8 +337,14 @@ class Buoy:
         self._contact += min(1.0, self._time_step / self._adaptive.patience) * (contact - self._contact)
         self.neighbors = _degree_of(self._contact, self._fewest, self._most)
 
-    def _limited(self, me: Reading, vx: float, vy: float) -> tuple[float, float]:
-        """A velocity within what the buoy can do."""
+    def limited(self, me: Reading, vx: float, vy: float) -> tuple[float, float]:
+        """Return of a wanted velocity what the buoy can do.
+
+        Parameters
+        ----------
+        me : how it moves now
+        vx, vy : what is wanted [m/s]
+        """
         make = self._make
         if make.max_acceleration or make.max_turn_rate:
             turn = math.radians(make.max_turn_rate or math.inf) * self._time_step

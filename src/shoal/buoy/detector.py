@@ -122,7 +122,11 @@ class RecordedTargets:
         self._places = places_on_tracks(scenario)
         self._elapsed = elapsed
         if not any(target.kind == "track" for target in scenario.targets):
-            raise BodyError("--sensor", "track needs a recorded target, and there is none", "add --target-track FILE")
+            raise BodyError(
+                "--sensor",
+                "track needs a recorded target, and there is none",
+                'give the scenario one: [[targets]] kind = "track"',
+            )
 
     def __call__(self, x: float, y: float) -> bool:
         """Whether a recorded target is within reach."""

@@ -1,7 +1,22 @@
 """Between the Earth, as autopilots know it, and the arena's frame, whose axes are not quite east and north."""
 
 from shoal.buoy.mavlink import Fix
+from shoal.core.errors import ScenarioError
 from shoal.core.geodesy import Frame
+from shoal.scenario.schema import Scenario
+
+
+def frame_of(scenario: Scenario) -> Frame:
+    """Return the frame of a scenario.
+
+    Raises
+    ------
+    ScenarioError : it does not say where it is
+    MissingExtraError : pyproj is not installed
+    """
+    if scenario.area.origin is None:
+        raise ScenarioError("area.origin", "is not given", "say at what longitude and latitude (0, 0) lies")
+    return Frame(scenario.area.origin)
 
 
 def in_frame(frame: Frame, fix: Fix) -> tuple[float, float, float, float]:

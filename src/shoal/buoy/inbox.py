@@ -21,8 +21,9 @@ class Inbox:
 
     Attributes
     ----------
-    counts : how many reports were new, and how many late, duplicate, reordered, early, damaged or strange; reordered
-        ones are new, too, all others were dropped
+    counts : how many reports were new, and how many late, duplicate, changed, reordered, early, damaged or strange;
+        reordered ones are new, too, and changed ones took the place of what their speaker had said of the same step, by
+        a clock that was ahead; all others were dropped
     """
 
     def __init__(self, agents: int, told: tuple[str, ...], time_step: float, kept: int) -> None:
@@ -61,7 +62,9 @@ class Inbox:
         elif step < max(0, now - self._kept):
             counts["late"] += 1
         elif id in (said := self._said.setdefault(step, {})):
-            counts["duplicate"] += 1
+            known, said[id] = said[id], report
+            counts["duplicate" if known == report else "changed"] += 1
+            return report if known == report else None
         else:
             said[id] = report
             last = self._last.get(id, 0)
@@ -75,8 +78,8 @@ class Inbox:
         return round(report.time / self._time_step)
 
     def forget(self, now: int) -> None:
-        """Drop what nobody will ask for from a step on."""
-        for step in [step for step in self._said if step < now - self._kept]:
+        """Drop what nobody will ask for from a step on, and what was heard by a clock that was ahead."""
+        for step in [step for step in self._said if step < now - self._kept or step > now + AHEAD]:
             del self._said[step]
 
     def of(self, step: int) -> dict[int, Report]:

@@ -1,6 +1,7 @@
 """A mesh: what one buoy, or a process of several, publishes reaches all others that are there, itself included."""
 
 import queue
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Protocol
 
@@ -28,6 +29,19 @@ class Mesh(Protocol):
 
     def close(self) -> None:
         """Leave."""
+
+
+class Peers(Mesh, Protocol):
+    """A mesh whose nodes know each other by name, and ask each other the time."""
+
+    def nodes(self) -> set[str]:
+        """Return who is there, this node included."""
+
+    def answer(self, how: Callable[[], bytes]) -> None:
+        """Answer whoever asks with what this function returns, in any thread."""
+
+    def ask(self, node: str, answered: Callable[[bytes], None]) -> None:
+        """Ask a node; its answer goes to this function, in any thread, if one ever comes."""
 
 
 def drained(arrived: "queue.SimpleQueue[bytes]", timeout: float) -> list[bytes]:
@@ -58,9 +72,12 @@ class MemoryMesh:
     Parameters
     ----------
     nodes : all nodes of the mesh, a list that they share; this one adds itself
+    name : what this node is called
     """
 
-    def __init__(self, nodes: "list[MemoryMesh]") -> None:
+    def __init__(self, nodes: "list[MemoryMesh]", name: str = "") -> None:
+        self.name = name
+        self._how: Callable[[], bytes] | None = None
         self._nodes = nodes
         self._arrived: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         self._orders: queue.SimpleQueue[bytes] = queue.SimpleQueue()
@@ -87,6 +104,20 @@ class MemoryMesh:
     def alive(self) -> int:
         """Return how many nodes are there, this one included."""
         return len(self._nodes)
+
+    def nodes(self) -> set[str]:
+        """Return who is there, this node included."""
+        return {node.name for node in self._nodes}
+
+    def answer(self, how: Callable[[], bytes]) -> None:
+        """Answer whoever asks with what this function returns."""
+        self._how = how
+
+    def ask(self, node: str, answered: Callable[[bytes], None]) -> None:
+        """Ask a node; its answer goes to this function, if it answers."""
+        for each in self._nodes:
+            if each.name == node and each._how is not None:
+                answered(each._how())
 
     def close(self) -> None:
         """Leave."""

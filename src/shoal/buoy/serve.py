@@ -16,7 +16,6 @@ from shoal.buoy.tether import Note, from_bytes
 from shoal.buoy.trust import NOBODY, Trust, read_key
 from shoal.buoy.zenoh_mesh import ZenohMesh
 from shoal.core.errors import FleetError, MessageError
-from shoal.core.messages import Reading
 from shoal.scenario.load import Source, load
 
 KEY = "SHOAL_FLEET_KEY"  # of the environment: what proves to the sea that a buoy is one of its own
@@ -55,7 +54,7 @@ def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: b
             _say(connection, "hello", ids=list(ids), scenario=scenario.hash, seed=scenario.seed)
             welcome = _note(connection, where, "welcome")
             aboard = Aboard(scenario, ids, run=welcome["run"], max_age=welcome["max_age"])
-            _warm(aboard)
+            aboard.warm()
             if command_key:
                 aboard.orderbook = Orderbook(scenario, welcome["fleet"], command_key, time.time())
             places = {"connect": welcome["connect"], "listen": welcome["listen"]}
@@ -94,15 +93,6 @@ def _work(
         orders=dict(aboard.orderbook.counts) if aboard.orderbook else {"unread": aboard.unread},
         **facts,
     )
-
-
-def _warm(aboard: Aboard) -> None:
-    """Decide once, so that what must be compiled is, and forget it."""
-    buoy = aboard.buoys[aboard.ids[0]]
-    state = buoy.state
-    reading = Reading(0.0, 0.0, 0.0, 0.0, False)
-    buoy.decide(reading, [buoy.report(reading, 0)._replace(id=buoy.id + 1)], 0)
-    buoy.restore(state)
 
 
 def _meet(mesh: Mesh, nodes: int, connection: "Connection[bytes, bytes]") -> None:

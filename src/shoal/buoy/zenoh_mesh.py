@@ -3,7 +3,7 @@
 import atexit
 import json
 import queue
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ from shoal.core.errors import FleetError, MissingExtraError
 
 ANY = "shoal/*"  # the name of every mesh
 _PATIENCE = 60_000  # milliseconds in which a busy machine may open a link
+_ANSWERS = 1.0  # seconds in which who is asked answers
 _RETRY = {"period_init_ms": 200, "period_max_ms": 2_000, "period_increase_factor": 1.5}  # of links that broke, too
 
 
@@ -26,6 +27,7 @@ class ZenohMesh:
     node : what this node is called; None: a guest, who is no node, and gives orders and hears answers only
     connect : addresses of nodes to connect to, such as tcp/127.0.0.1:7447; they need not be there yet
     listen : address to listen at; the default can be reached from this machine only, on a free port
+    blocks : whether `publish` waits where a link is slow, so that nothing is lost; else it is lost there
     config : file of zenoh's own configuration, such as certificates; what is said above counts more
 
     Raises
@@ -41,6 +43,7 @@ class ZenohMesh:
         *,
         connect: Sequence[str] = (),
         listen: str = "tcp/127.0.0.1:0",
+        blocks: bool = True,
         config: str | Path | None = None,
     ) -> None:
         zenoh = _zenoh("a mesh between processes")
@@ -55,6 +58,7 @@ class ZenohMesh:
         self._orders: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         self._nodes: set[str] = set()
         self._order_key = f"{fleet}/orders"
+        self._clocks, self._node = f"{fleet}/clock", node
         try:
             self._session = zenoh.open(_settings([listen], connect, wanted, config))
             atexit.register(self.close)  # Python would wait for its threads for ever
@@ -63,7 +67,7 @@ class ZenohMesh:
                 self._heard = self._session.declare_subscriber(f"{fleet}/reports", self._take_in)
             self._publisher = self._session.declare_publisher(
                 f"{fleet}/reports",
-                congestion_control=zenoh.CongestionControl.BLOCK,
+                congestion_control=zenoh.CongestionControl.BLOCK if blocks else zenoh.CongestionControl.DROP,
                 priority=zenoh.Priority.REAL_TIME,
                 express=True,
             )
@@ -114,6 +118,24 @@ class ZenohMesh:
     def alive(self) -> int:
         """Return how many nodes are there, this one included."""
         return len(self._nodes)
+
+    def nodes(self) -> set[str]:
+        """Return who is there, this node included."""
+        return {name.rpartition("/")[2] for name in self._nodes}
+
+    def answer(self, how: Callable[[], bytes]) -> None:
+        """Answer whoever asks with what this function returns, in any thread."""
+        where = f"{self._clocks}/{self._node}"
+        self._clock = self._session.declare_queryable(where, lambda query: query.reply(query.key_expr, how()))
+
+    def ask(self, node: str, answered: Callable[[bytes], None]) -> None:
+        """Ask a node; its answer goes to this function, in any thread, if one ever comes."""
+
+        def take(reply: Any) -> None:
+            if reply.ok is not None:
+                answered(bytes(reply.ok.payload))
+
+        self._session.get(f"{self._clocks}/{node}", take, timeout=_ANSWERS)
 
     def close(self) -> None:
         """Leave."""
@@ -171,6 +193,7 @@ def _settings(
         "connect/endpoints": list(connect),
         "scouting/multicast/enabled": False,
         "scouting/gossip/enabled": False,
+        "transport/shared_memory/enabled": False,  # who is killed would leave it behind; a network is what is meant
         **more,
     }
     for path, value in wanted.items():

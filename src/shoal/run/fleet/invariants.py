@@ -90,7 +90,8 @@ class Ear:
             elif step < oldest:
                 words.append("late")
             elif speaker in (said := self._said.setdefault(step, {})):
-                words.append("duplicate")
+                words.append("duplicate" if said[speaker] == truth else "changed")
+                said[speaker] = truth
             else:
                 said[speaker] = truth
                 words.append("new")

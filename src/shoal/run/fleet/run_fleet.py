@@ -91,9 +91,6 @@ def run_fleet(
     scenario, terms = load(scenario), terms or Terms()
     kills = kills_of(terms.kill, scenario.agents)
     shares = _shares(scenario.agents, terms)
-    if out is not None:
-        with RecordFolder(out):  # refused now, not after the run
-            pass
     in_memory = terms.mesh == "memory"
     if terms.trust.command_key:
         key_in(terms.trust.command_key)
@@ -105,6 +102,7 @@ def run_fleet(
     notes: list[str] = []
     report = progress or (lambda done, total: None)
     with ExitStack() as stack:
+        folder = None if out is None else stack.enter_context(RecordFolder(out))  # refused now, not after the run
         crowd: Crowd
         if in_memory:
             ocean = _opened(scenario, onlooker)
@@ -125,7 +123,8 @@ def run_fleet(
             )
             (ocean,) = oceans
         mark_compiled(scenario, BUOYS)
-        killing, log = Killing(crowd, kills), Log(ocean, onlooker)
+        killing, log = Killing(crowd, kills), Log(ocean, folder, onlooker)
+        stack.callback(log.close)
         if isinstance(crowd, Processes):
             crowd.heed = log.heed
             if tell and terms.trust.command_key:
@@ -143,7 +142,7 @@ def run_fleet(
         facts = crowd.finish() if isinstance(crowd, Processes) else []
         words = crowd.last_words() if isinstance(crowd, Processes) else []
         notes = [*notes, *_lost(log.lost), *words, *(sea.notes() if sea else ()), *_measured(facts, by_clock)]
-    return log.record(notes, None if out is None else Path(out))
+        return log.record(notes)
 
 
 def _opened(scenario: Scenario, onlooker: Onlooker | None) -> Ocean:
@@ -208,7 +207,8 @@ def _measured(facts: list[dict[str, Any]], by_clock: bool) -> list[str]:
     counts: Counter[str] = Counter()
     for each in facts:
         counts.update(each["counts"])
-    dropped = [f"{counts[word]:,} {word}" for word in ("late", "duplicate", "early", "damaged", "strange", "reordered")]
+    words = ("late", "duplicate", "changed", "early", "damaged", "strange", "reordered")
+    dropped = [f"{counts[word]:,} {word}" for word in words]
     notes = [
         f"{1000 * spent / max(buoy_seconds, 1e-9):.2f} ms of processor per buoy and second, "
         f"{max(each['memory'] for each in facts) / 2**20:.0f} MiB in the largest of {len(facts)} processes",

@@ -124,12 +124,12 @@ class Vessel:
         return {id: buoy.state for id, buoy in self.aboard.buoys.items()}
 
     def speak(self, tick: Tick) -> list[bytes] | None:
-        """Begin a step, unless it is in one, or is further by its own clock: what is published."""
-        if self.tick is not None or tick.step <= self.done or tick.step < self.away:
-            return None
+        """Begin a step, unless it is in one, or has done this one by its own clock: what is published."""
         step = max(tick.step, math.floor(tick.step + self.off))
+        if self.tick is not None or step == self.done or tick.step < self.away:
+            return None
         self.tick = tick.of(self.ids)._replace(step=step)
-        self.acts_at = max(float(tick.step), step + HALF - self.off)
+        self.acts_at = max(float(tick.step), min(step - self.off, float(tick.step)) + HALF)
         return self.aboard.speak(self.tick)
 
     def acts(self, now: int, parcels: list[Parcel]) -> Commands | None:
