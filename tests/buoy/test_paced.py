@@ -15,7 +15,7 @@ from shoal.buoy.tether import READINGS, Commands, Note, Tick, from_bytes
 class Crew:
     """Decides nothing, and notes in which steps it was asked to."""
 
-    ids = (0,)
+    ids, orderbook = (0,), None
 
     def __init__(self):
         self.steps, self.inbox = [], Inbox(1, (), 1.0, 2)
@@ -25,6 +25,12 @@ class Crew:
 
     def hear(self, messages, step):
         pass
+
+    def attend(self, messages, tick, now):
+        return []
+
+    def links(self, ids):
+        return None
 
     def missing(self, tick):
         return set()
