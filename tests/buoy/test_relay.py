@@ -141,7 +141,8 @@ def test_in_a_storm_they_come_as_far_as_they_may_and_no_further(hops, reach):
         said = [(id, report(id, now).to_bytes()) for id in range(6)]
         for turn in range(10):
             at = now + turn / 10
-            mesh.publish([Parcel(at, 0, data, None) for _, data in said], [id for id, _ in said])
+            if said:
+                mesh.publish(at, [Parcel(data, None) for _, data in said], [id for id, _ in said])
             for id, aboard in enumerate(fleet):
                 came = [parcel.data for parcel in mesh.take(id, at + 0.1)]
                 aboard.hear([data for data in came if _sounds_near(data, id)], now)

@@ -108,13 +108,22 @@ class Helm:
         for report in self._aboard.speak(tick):
             self._mesh.publish(report)
         heard = self._listen(step)
-        for data in self._aboard.attend(self._mesh.orders(0.0), tick, time.time()):
-            self._mesh.order(data)
+        orders = self._attend(tick)
         (want,) = self._aboard.act(tick).wants
         velocity = self._buoy.limited(reading, *map(float, want))
         self.counts["decided"] += 1
-        note = self._steer(velocity)
-        self._log.keep(step, reading, velocity, heard, note)
+        self._log.keep(step, reading, velocity, heard, "; ".join(filter(None, (*orders, self._steer(velocity)))))
+
+    def _attend(self, tick: Tick) -> list[str]:
+        """Take orders that arrived, to be obeyed from the next step on, and pass them on; return what came of them."""
+        for data in self._aboard.attend(self._mesh.orders(0.0), tick, time.time()):
+            self._mesh.order(data)
+        book = self._aboard.orderbook
+        if book is None:
+            return []
+        said = [f"ordered from step {command.step:,} on: {command.words}" for command in book.obeyed] + book.refused
+        book.obeyed, book.refused = [], []
+        return said
 
     def _listen(self, step: int) -> int:
         """Hear until all who spoke lately are heard, or half of the step is over; return how many others were."""

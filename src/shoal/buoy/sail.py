@@ -113,7 +113,7 @@ def sail(scenario: Source, id: int, gear: Gear, tell: Callable[[str], None]) -> 
 
 def mesh_of(scenario: Scenario) -> str:
     """What the mesh of a swarm is called: those of another scenario or seed are on another."""
-    return f"shoal/{scenario.hash[:16]}/{scenario.seed}"
+    return f"shoal/{scenario.hash[:16]}-{scenario.seed}"
 
 
 def others_of(gear: Gear) -> list[str]:

@@ -121,7 +121,7 @@ class ZenohMesh:
 
     def nodes(self) -> set[str]:
         """Return who is there, this node included."""
-        return {name.rpartition("/")[2] for name in self._nodes}
+        return {name.rpartition("/")[2] for name in self._nodes.copy()}
 
     def answer(self, how: Callable[[], bytes]) -> None:
         """Answer whoever asks with what this function returns, in any thread."""

@@ -93,7 +93,7 @@ class Processes:
         self._shares = [tuple(each) for each in shares]
         self._plain = plain
         self._started: dict[tuple[int, ...], subprocess.Popen[bytes]] = {}
-        self._arrived: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        self._arrived: queue.Queue[Any] = queue.Queue()
         self._trust = trust
         self.heed: Callable[[dict[str, Any]], None] = lambda facts: None
         protocol = protocol_of(trust.mesh_config)
