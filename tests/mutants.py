@@ -74,7 +74,13 @@ MUTANTS = {
     "a buoy reports where it will be": (Buoy, "report", "float(x)", "float(x + vx)", "say what instruments"),
     "a buoy reports in halves": (Buoy, "report", "float(vy)", "float(vy / 2)", "say what instruments"),
     "a buoy is a step behind in its reports": (Buoy, "report", "time = step", "time = (step - 1)", "say when"),
-    "a buoy decides a step behind": (Buoy, "decide_together", "near[rows], step)", "near[rows], step - 1)", "its own clock"),
+    "a buoy decides a step behind": (
+        Buoy,
+        "decide_together",
+        "near[rows], step)",
+        "near[rows], step - 1)",
+        "its own clock",
+    ),
     "a buoy wants what is no number": (
         Buoy,
         "decide_together",
