@@ -12,6 +12,8 @@ import os
 import resource
 import sys
 import time
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import get_context
 
 from shoal.run.fleet.soak import STEPS, Outcome, soak
@@ -55,37 +57,43 @@ def timed(seed, steps):
     return outcome, time.process_time() - begun, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
 
 
+def pool(processes):
+    """Processes that are started anew, not forked; threads of a test stand in for them."""
+    return ProcessPoolExecutor(processes, mp_context=get_context("spawn"))
+
+
 def run(chosen):
-    """Seed after seed, until time is up, an invariant is broken or somebody interrupts it."""
+    """Seed after seed, until time is up or an invariant is broken; a process that somebody kills ends it, too."""
     begun, steps = time.monotonic(), chosen.steps
     seeds, at_sea, decisions, spent, most = 0, 0, 0, 0.0, 0
     following = chosen.first + chosen.processes
-    with get_context("spawn").Pool(chosen.processes) as pool:
-        waiting = [pool.apply_async(timed, (seed, steps)) for seed in range(chosen.first, following)]
+    with pool(chosen.processes) as workers:
+        waiting = {workers.submit(timed, seed, steps) for seed in range(chosen.first, following)}
         while waiting:
-            done = next((each for each in waiting if each.ready()), None)
-            if done is None:
-                time.sleep(0.05)
-                continue
-            waiting.remove(done)
-            outcome, took, memory = done.get()
-            if outcome.broken:
-                print(said(outcome, steps))
-                same = soak(outcome.seed, steps=steps) == outcome
-                print("replayed: the same to the bit" if same else "REPLAYED: SOMETHING ELSE, WHICH IS A FAULT, TOO")
-                return 1
-            seeds, at_sea, decisions = seeds + 1, at_sea + outcome.at_sea, decisions + outcome.decisions
-            spent, most = spent + took, max(most, memory)
-            hours = (time.monotonic() - begun) / 3600
-            print(
-                f"{seeds} seeds, {at_sea / HOUR:.1f} buoy-hours ({decisions / HOUR:.1f} of decisions): "
-                f"{at_sea / HOUR / hours:,.0f} ({decisions / HOUR / hours:,.0f}) an hour on {chosen.processes} cores, "
-                f"{1e6 * spent / max(1, decisions):.0f} us of processor per decision, {most} MB at most each",
-                flush=True,
-            )
-            if time.monotonic() < begun + 60.0 * chosen.minutes:
-                waiting.append(pool.apply_async(timed, (following, steps)))
-                following += 1
+            ready, waiting = wait(waiting, return_when=FIRST_COMPLETED)
+            for done in ready:
+                try:
+                    outcome, took, memory = done.result()
+                except BrokenProcessPool:
+                    print(f"a process was killed after {seeds} seeds: see whether there is memory for all of them")
+                    return 2
+                if outcome.broken:
+                    print(said(outcome, steps), flush=True)
+                    same = soak(outcome.seed, steps=steps) == outcome
+                    print("replayed: the same to the bit" if same else "REPLAYED: SOMETHING ELSE, A FAULT, TOO")
+                    return 1
+                seeds, at_sea, decisions = seeds + 1, at_sea + outcome.at_sea, decisions + outcome.decisions
+                spent, most = spent + took, max(most, memory)
+                hours = HOUR * (time.monotonic() - begun) / 3600
+                print(
+                    f"{seeds} seeds, {at_sea / HOUR:.1f} buoy-hours ({decisions / HOUR:.1f} of decisions): "
+                    f"{at_sea / hours:,.0f} ({decisions / hours:,.0f}) an hour on {chosen.processes} cores, "
+                    f"{1e6 * spent / max(1, decisions):.0f} us of processor per decision, {most} MB at most each",
+                    flush=True,
+                )
+                if time.monotonic() < begun + 60.0 * chosen.minutes:
+                    waiting.add(workers.submit(timed, following, steps))
+                    following += 1
     print(f"no invariant broken by seeds {chosen.first} to {following - 1}")
     return 0
 

@@ -151,13 +151,16 @@ class Aboard:
     def act(self, tick: Tick) -> Commands:
         """What they want at a step, from what they measure and hear, and are told to do."""
         self._obey(tick.step)
-        measured = dict(readings_of(tick))
+        measured, rows = dict(readings_of(tick)), tick.readings
         here = [self.buoys[id] for id in measured]
         self._before = {buoy.id: buoy.state for buoy in here}
         wants: Sequence[Sequence[float]] = []
+        for buoy in here:
+            buoy.follow(tick.step)
         if here:
             said, reaches = self._kept(tick) if self._keeps else self._arrived(tick)
-            wants = Buoy.decide_together(here, list(measured.values()), said, reaches, tick.step)
+            near = said.nearest(rows["id"], rows["x"], rows["y"], [buoy.neighbors for buoy in here], reaches)
+            wants = Buoy.decide_together(here, list(measured.values()), said, near, tick.step)
         self.inbox.forget(tick.step)
         self._relay.forget(tick.step - self._delay - self._interval - self._max_age)
         return self._commands(tick, wants)

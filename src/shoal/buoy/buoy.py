@@ -5,10 +5,8 @@ from collections.abc import Iterable, Sequence
 from functools import reduce
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from shoal.buoy.plain import NO_TRUTH, PlainMinds
-from shoal.buoy.said import Near, Said
+from shoal.buoy.said import Near, Said, nearest_alone
 from shoal.compiler.kernel import plain
 from shoal.compiler.late import compiles
 from shoal.core.errors import MessageError, StrategyError
@@ -252,25 +250,25 @@ class Buoy:
         StrategyError : its strategy cannot be compiled, raises an error, or wants what is not finite
         """
         report = self.report(reading, step)
+        self.follow(step)
         newest: dict[int, Report] = {}
         for each in inbox:
             if each.id not in newest or each.time >= newest[each.id].time:
                 newest[each.id] = each
-        said = Said([newest[id] for id in sorted(newest)], self.told, 1)
-        ((vx, vy),) = Buoy.decide_together([self], [reading], said, None, step)
+        said, near = nearest_alone(newest, self.told, report, self.neighbors)
+        ((vx, vy),) = Buoy.decide_together([self], [reading], said, near, step)
         return Decision(*self.limited(reading, vx, vy), report)
 
     @staticmethod
     def decide_together(
-        buoys: Sequence["Buoy"], readings: Sequence[Reading], said: Said, reaches: Any, step: int
+        buoys: Sequence["Buoy"], readings: Sequence[Reading], said: Said, near: Near, step: int
     ) -> list[list[float]]:
-        """Let buoys that were made together decide; return the velocities wanted [m/s], before limits.
+        """Let buoys decide that followed the scenario's commands so far; return what they want [m/s], before limits.
 
         Parameters
         ----------
         buoys, readings : n of them, and what their instruments say at the start of the step
-        said : the reports that reached them
-        reaches : (n, m) which of them reached each, one of each speaker at most; None: all
+        said, near : the reports that reached them, and (n, k, 2) those of their neighbors
         step : number of the step, from 0
 
         Raises
@@ -279,9 +277,6 @@ class Buoy:
         """
         for buoy, reading in zip(buoys, readings, strict=True):
             buoy._check(reading, step)
-            buoy.follow(step)
-        ids, x, y = np.array([(buoy.id, it.x, it.y) for buoy, it in zip(buoys, readings, strict=True)], float).T
-        near = said.nearest(ids, x, y, [buoy.neighbors for buoy in buoys], reaches)
         wants: list[list[float]] = [[0.0, 0.0]] * len(buoys)
         for rows in _of_one_mind(buoys):
             one, places = buoys[rows[0]], [buoys[n]._place for n in rows]

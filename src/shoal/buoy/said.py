@@ -1,6 +1,7 @@
-"""What was said, and who of the speakers are the k nearest: worked out for all buoys of a process at once."""
+"""What was said, and who of the speakers are the k nearest: for all buoys of a process at once, or for one alone."""
 
-from collections.abc import Sequence
+import struct
+from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -11,6 +12,7 @@ from shoal.core.agents import as_records, width
 from shoal.core.messages import Report
 from shoal.strategies.one_agent import Inbox
 
+_ROW = struct.Struct("7d").pack
 Near = npt.NDArray[np.int64]
 
 
@@ -41,13 +43,10 @@ class Said:
         self.tells = np.zeros((count + listeners, width(told)))
         if told and count:
             self.tells[:count] = [each.told for each in reports]
-        numbers = [(each.x, each.y, each.vx, each.vy, each.time) for each in reports]
-        self.inbox = Inbox(
-            np.array([each.id for each in reports], np.int64),
-            np.array(numbers, np.float64).reshape(count, 5),
-            np.array([each.on_target for each in reports], np.bool_),
-            self.tells.view(_kind(told))[:, 0],
-        )
+        rows = [_ROW(it.id, it.x, it.y, it.vx, it.vy, it.time, it.on_target) for it in reports]
+        numbers = np.frombuffer(b"".join(rows)).reshape(count, 7)  # quicker than of tuples
+        told_of = self.tells.view(_kind(told))[:, 0]
+        self.inbox = Inbox(numbers[:, 0].astype(int), numbers[:, 1:6].copy(), numbers[:, 6] > 0.0, told_of)
 
     def nearest(self, ids: Any, x: Any, y: Any, most: Sequence[int], reaches: Any = None) -> Near:
         """Whom each of n listeners hears: the k nearest of the others that it can hear, ties to the lower id.
@@ -70,13 +69,15 @@ class Said:
         square[ids[:, None] == speakers] = np.nan  # sorted behind all others
         if reaches is not None:
             square[~reaches] = np.nan
-        counts = np.minimum(np.count_nonzero(square == square, axis=1), most)
-        order = np.argsort(square, axis=1, kind="stable")[:, : counts.max(initial=0)]
-        order[np.arange(order.shape[1]) >= counts[:, None]] = speakers.size
+        counts = list(map(min, (square == square).sum(axis=1).tolist(), most))
+        order = square.argsort(axis=1, kind="stable")[:, : max(counts, default=0)]
+        for row, count in zip(order, counts, strict=True):
+            row[count:] = speakers.size  # nobody's, behind all others
         near = np.empty((*order.shape, 2), np.int64)
-        near[:, :, 1] = ranks = np.argsort(order, axis=1)
-        near[:, :, 0] = order[np.arange(len(order))[:, None], ranks]
-        near[near[:, :, 0] == speakers.size] = -1
+        near[:, :, 1] = ranks = order.argsort(axis=1)
+        near[:, :, 0] = rows = order[np.arange(len(order))[:, None], ranks]
+        if min(counts, default=0) < order.shape[1]:
+            near[rows == speakers.size] = -1
         return near
 
     def heard(self, near: Near, ranked: bool = False) -> list[Report]:
@@ -87,3 +88,20 @@ class Said:
     def contact(self, near: Near) -> bool:
         """Whether any of the neighbors (k, 2) of one listener is on target."""
         return bool(self.inbox.on_target[near[near[:, 0] >= 0, 0]].any())
+
+
+def nearest_alone(newest: Mapping[int, Report], told: tuple[str, ...], me: Report, most: int) -> tuple[Said, Near]:
+    """What one listener hears, as `Said.nearest` has it: quicker for one, which needs no arrays of all the others.
+
+    Parameters
+    ----------
+    newest : of each speaker; told : as of Said
+    me : where the listener is; most : k
+    """
+    x, y, own = me.x, me.y, me.id
+    far = [((x - it.x) * (x - it.x) + (y - it.y) * (y - it.y), id) for id, it in newest.items() if id != own]
+    ranks = {id: rank for rank, (_, id) in enumerate(sorted(far)[:most])}
+    ids = sorted(ranks)
+    near = np.empty((1, len(ids), 2), np.int64)
+    near[0, :, 0], near[0, :, 1] = np.arange(len(ids)), [ranks[id] for id in ids]
+    return Said([newest[id] for id in ids], told, 1), near

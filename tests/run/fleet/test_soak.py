@@ -1,9 +1,10 @@
 """A fleet under a seeded adversary: nothing that must be true is broken, and whoever breaks the runtime is caught."""
 
 import inspect
-import multiprocessing.dummy as threads
 import textwrap
 from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from functools import cache
 
 import pytest
@@ -128,7 +129,7 @@ class TestCommandLine:
             return Outcome(seed, 5, 250, 240, broken if seed == 8 else None, "abc", [])
 
         monkeypatch.setattr(benchmark, "soak", soaked)
-        monkeypatch.setattr(benchmark, "get_context", lambda how: threads)
+        monkeypatch.setattr(benchmark, "pool", ThreadPoolExecutor)
         monkeypatch.setattr("sys.argv", ["soak.py", "--minutes", "0", "--processes", "2", "--first", "7"])
         with pytest.raises(SystemExit) as ended:
             benchmark.main()
@@ -136,3 +137,15 @@ class TestCommandLine:
         assert ended.value.code == code
         assert ("no invariant broken by seeds 7 to 8" in printed) == (not code)
         assert ("seed 8: 5 steps" in printed and "replayed: the same to the bit" in printed) == bool(code)
+
+    def test_a_process_that_is_killed_ends_it(self, monkeypatch, capsys):
+        def killed(seed, steps):
+            raise BrokenProcessPool
+
+        monkeypatch.setattr(benchmark, "soak", killed)
+        monkeypatch.setattr(benchmark, "pool", ThreadPoolExecutor)
+        monkeypatch.setattr("sys.argv", ["soak.py", "--minutes", "0", "--first", "7"])
+        with pytest.raises(SystemExit) as ended:
+            benchmark.main()
+        assert ended.value.code == 2
+        assert "a process was killed after 0 seeds" in capsys.readouterr().out
