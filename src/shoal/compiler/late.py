@@ -10,7 +10,7 @@ import sys
 import threading
 import warnings
 from collections.abc import Callable
-from functools import cache, cached_property, update_wrapper
+from functools import cache, update_wrapper
 from typing import Any
 
 ONE_AT_A_TIME = threading.RLock()
@@ -33,17 +33,14 @@ class Kernel:
         self.py_func = function
         self._make = make
 
-    @cached_property
-    def dispatcher(self) -> Any:
-        """Load numba, and let it know the function."""
-        load()
-        return self._make(self.py_func)
-
     def __call__(self, *arguments: Any) -> Any:
         """Run it, compiled."""
         return self.dispatcher(*arguments)
 
     def __getattr__(self, name: str) -> Any:
+        if name == "dispatcher":  # no lock: whoever compiles holds others; of two that are made at once, one stays
+            load()
+            return self.__dict__.setdefault(name, self._make(self.py_func))
         if name == "_numba_type_" or not name.startswith("_"):  # by the first, numba knows what kernels mean it
             return getattr(self.dispatcher, name)
         raise AttributeError(name)
