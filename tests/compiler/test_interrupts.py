@@ -4,7 +4,6 @@ import os
 import signal
 
 import pytest
-from numba.core import event
 
 from shoal.compiler import interrupts
 from shoal.compiler.late import load
@@ -12,24 +11,24 @@ from shoal.compiler.late import load
 
 @pytest.fixture
 def deferring():
-    """A listener of its own, as it hears numba take and release its lock."""
-    return interrupts._Deferring()
+    """A deferral of its own."""
+    return interrupts.Deferral()
 
 
 def test_ctrl_c_waits_until_all_is_compiled(deferring):
-    deferring.on_start(event)
-    deferring.on_start(event)  # a function that a function needs
+    deferring.begin()
+    deferring.begin()  # a function that a function needs
     os.kill(os.getpid(), signal.SIGINT)
-    deferring.on_end(event)
+    deferring.end()
     with pytest.raises(KeyboardInterrupt):
-        deferring.on_end(event)
+        deferring.end()
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 def test_nothing_waits_without_a_signal(deferring):
     before = signal.getsignal(signal.SIGTERM)
-    deferring.on_start(event)
-    deferring.on_end(event)
+    deferring.begin()
+    deferring.end()
     assert signal.getsignal(signal.SIGTERM) is before
     with pytest.raises(KeyboardInterrupt):
         os.kill(os.getpid(), signal.SIGINT)

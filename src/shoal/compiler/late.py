@@ -13,6 +13,8 @@ from collections.abc import Callable
 from functools import cache, update_wrapper
 from typing import Any
 
+from shoal.compiler.interrupts import interrupts_wait, wait_for_the_compiler
+
 ONE_AT_A_TIME = threading.RLock()
 
 _waiting: list[Callable[[Any], object]] = []  # what is said to numba once it is there
@@ -52,7 +54,7 @@ class Kernel:
 def load() -> Any:
     """Import numba, the first time, and tell it what was said of functions; return the module."""
     if not _loaded:
-        with ONE_AT_A_TIME:
+        with ONE_AT_A_TIME, interrupts_wait():
             if not _loaded:
                 _load()
     return _loaded[0]
@@ -68,10 +70,9 @@ def when_loaded(say: Callable[[Any], object]) -> None:
 
 
 def _load() -> None:
+    import numba.core.ccallback  # else it is imported with the first phase
     import numba.extending
     from numba.core.errors import NumbaExperimentalFeatureWarning
-
-    from shoal.compiler.interrupts import wait_for_the_compiler
 
     # Fleets with strategies of their own share memory records, which numba passes by their first fields and warns of.
     warnings.filterwarnings("ignore", message="Record", category=NumbaExperimentalFeatureWarning)
