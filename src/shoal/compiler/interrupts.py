@@ -70,10 +70,10 @@ def wait_for_the_compiler() -> None:
     """Let signals wait while numba compiles, from now on."""
     from numba.core import event
 
-    Listener: Any = event.Listener  # numba has no types that mypy sees
+    listener: Any = event.Listener  # numba has no types that mypy sees
     register: Any = event.register
 
-    class Compiling(Listener):  # type: ignore[misc]
+    class Compiling(listener):  # type: ignore[misc]
         """Listens when numba takes and releases the lock under which it compiles."""
 
         def on_start(self, event: Any) -> None:
