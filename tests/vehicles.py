@@ -60,13 +60,15 @@ class Buoys:
         self.options, self.before = options or {}, before or {}
         self.processes = {}
 
-    def start(self, id, **environment):
-        command = [*self.before.get(id, []), sys.executable, "-m", "shoal", "buoy", str(self.file)]
-        command += ["--id", str(id), "--connect", ",".join(self.meshes), "--listen", self.meshes[id]]
-        command += ["--body", f"mavlink:udp:{self.bodies[id]}", "--out", str(self.folder / "log"), "--plain", "--arm"]
-        with (self.folder / f"said-{id}").open("ab") as said:
+    def start(self, place, id=None, **environment):
+        """Start a buoy on the vehicle of a place; its number is that of the place, too, if not given."""
+        command = [*self.before.get(place, []), sys.executable, "-m", "shoal", "buoy", str(self.file)]
+        command += ["--id", str(place if id is None else id), "--connect", ",".join(self.meshes)]
+        command += ["--listen", self.meshes[place], "--body", f"mavlink:udp:{self.bodies[place]}", "--arm"]
+        command += ["--out", str(self.folder / "log"), "--plain"]
+        with (self.folder / f"said-{place}").open("ab") as said:
             about = {**os.environ, "OPENBLAS_NUM_THREADS": "1", **environment}
-            self.processes[id] = subprocess.Popen([*command, *self.options.get(id, [])], stderr=said, env=about)
+            self.processes[place] = subprocess.Popen([*command, *self.options.get(place, [])], stderr=said, env=about)
 
     def said(self, id):
         return (self.folder / f"said-{id}").read_text(encoding="utf-8")

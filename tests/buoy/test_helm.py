@@ -1,6 +1,7 @@
 """A buoy at the helm: whatever its body, the swarm or its clock do, it goes on, and nothing moves that should not."""
 
 import csv
+import time
 
 import pytest
 
@@ -12,12 +13,16 @@ from shoal.buoy.clock import CommonClock
 from shoal.buoy.errors import UnreadyError
 from shoal.buoy.helm import QUIET, Helm
 from shoal.buoy.logbook import Logbook
-from shoal.core.errors import RecordError
+from shoal.buoy.orderbook import Orderbook
+from shoal.buoy.twins import GRACE, NEW, Twins
+from shoal.core.errors import FleetError, RecordError
 from shoal.core.geodesy import Frame
 from shoal.core.messages import Reading, Report
+from shoal.core.orders import Answer, Order, opened
 from shoal.scenario.load import load
 
 PERIOD = 0.5
+KEY = bytes(32)
 
 
 class Air:
@@ -25,6 +30,7 @@ class Air:
 
     def __init__(self, now):
         self.now, self.said, self.speaks, self.coming = now, [], True, []
+        self.alike, self.ordered, self.answered = (0, 0), [], []
 
     def publish(self, data):
         self.said.append(Report.from_bytes(data))
@@ -41,7 +47,14 @@ class Air:
         return found
 
     def orders(self, timeout):
-        return []
+        found, self.ordered = self.ordered, []
+        return found
+
+    def order(self, data):
+        self.answered.append(data)
+
+    def namesakes(self):
+        return self.alike
 
     def nodes(self):
         return {"0", "1"}
@@ -78,10 +91,12 @@ class Scene:
         self.now, self.boat, self.events = [1000.0], Boat(), {}
         self.air, self.clock = Air(self.now), CommonClock(0, PERIOD, lambda: self.now[0])
         self.clock.start(1001.0)
-        swarm = small(2, 1, {"time_step": PERIOD})
+        swarm = self.swarm = small(2, 1, {"time_step": PERIOD})
         self.aboard = Aboard(swarm, [0], max_age=1)
         self.log = Logbook(folder, 0, Frame((5.3, 60.4)), lambda: 1.79e9 + self.now[0])
-        self.helm = Helm(swarm, self.aboard, self.air, self.boat, self.clock, self.log, wait=self.wait)
+        self.told = []
+        twins = Twins(self.air, 0, lambda: self.now[0], self.told.append)
+        self.helm = Helm(swarm, self.aboard, self.air, self.boat, self.clock, self.log, twins, wait=self.wait)
 
     def wait(self, seconds):
         assert seconds > 0.0
@@ -105,7 +120,9 @@ class Scene:
 
 @pytest.fixture
 def scene(tmp_path):
-    return Scene(tmp_path)
+    scene = Scene(tmp_path)
+    yield scene
+    scene.log.close()
 
 
 def test_every_step_it_speaks_decides_and_goes(scene):
@@ -165,6 +182,58 @@ def test_who_comes_late_begins_where_the_others_are(scene):
     scene.run(45)
     assert scene.steps == list(range(38, 45))
     assert scene.helm.counts["skipped"] == 0
+
+
+def test_an_order_is_obeyed_also_by_one_that_does_not_know_its_place(scene):
+    scene.aboard.orderbook = Orderbook(scene.swarm, "fleet", KEY, time.time() - 10.0)
+    hold = Order("fleet", time.time_ns(), time.time() + 60.0, "hold").to_bytes(KEY)
+    scene.boat.lost = True
+    scene.events = {2: lambda: scene.air.ordered.append(hold), 5: lambda: setattr(scene.boat, "lost", False)}
+    scene.run(10)
+    (answer,) = [said for said, _ in (opened(data, KEY) for data in scene.air.answered) if isinstance(said, Answer)]
+    assert (answer.obeyed, answer.step) == ((0,), 3)
+    assert scene.boat.told == [(0.0, 0.0)] * 5 + ["stop"]
+    assert "ordered from step 3 on: hold" in scene.rows()[2]["note"]
+
+
+class TestTwins:
+    """Another buoy of the same number."""
+
+    def test_one_that_comes_when_this_is_under_way_is_told_of_and_stops_nothing(self, scene):
+        late = round((NEW + 2.0) / PERIOD)
+        scene.events = {
+            late: lambda: setattr(scene.air, "alike", (1, 0)),
+            late + 20: lambda: setattr(scene.air, "alike", (0, 0)),
+        }
+        scene.run(late + 30)
+        assert scene.helm.counts == {"decided": late + 30, "twinned": 20}
+        assert scene.told == [
+            "buoy 0: there is another buoy 0 on the mesh; end one of them",
+            "buoy 0: the other buoy 0 is gone",
+        ]
+        assert [int(row["step"]) for row in scene.rows() if row["note"]] == list(range(late, late + 20))
+
+    def test_the_second_of_two_ends_when_it_finds_out_soon_and_the_first_stays(self, scene):
+        scene.air.alike = (1, 0)
+        with pytest.raises(FleetError, match="a buoy 0 is on the mesh already"):
+            scene.run(100)
+        assert GRACE <= scene.helm.counts["decided"] * PERIOD + 1.0 <= GRACE + 3.0
+
+    def test_the_first_of_two_goes_on(self, scene):
+        scene.air.alike = (0, 1)
+        scene.run(100)
+        assert scene.helm.counts == {"decided": 100, "twinned": 100}
+
+    def test_one_that_is_only_heard_is_told_of_once(self, scene):
+        def speak():
+            step = scene.clock.step()
+            scene.air.coming.append(Report(0, 9.0, 9.0, 0.0, 0.0, True, (), step * PERIOD).to_bytes())
+
+        scene.events = dict.fromkeys((5, 6), speak)
+        scene.run(10)
+        assert scene.told == ["buoy 0: somebody else reports as buoy 0; end one of the two"]
+        assert scene.aboard.inbox.foreign == 2
+        assert scene.helm.counts == {"decided": 10, "twinned": 2}
 
 
 def test_a_log_is_a_track(scene):

@@ -8,19 +8,21 @@ import pytest
 from shoal.buoy.clock import CommonClock
 from shoal.buoy.meeting import meet
 from shoal.buoy.mesh import MemoryMesh
+from shoal.buoy.twins import Twins
 
 
 class Party:
     """Buoys whose clocks are off, each of which meets the others in a thread."""
 
     def __init__(self):
-        self.nodes, self.clocks, self.said, self.threads = [], {}, [], []
+        self.nodes, self.meshes, self.clocks, self.said, self.threads = [], {}, {}, [], []
 
     def join(self, id, off, wanted):
         clock = self.clocks[id] = CommonClock(id, 0.5, lambda: time.monotonic() + off)
-        mesh = MemoryMesh(self.nodes, str(id))
+        mesh = self.meshes[id] = MemoryMesh(self.nodes, str(id))
+        twins = Twins(mesh, id, time.monotonic, self.said.append)
         self.threads.append(
-            threading.Thread(target=meet, args=(mesh, clock, id, wanted, 0.5, self.said.append), daemon=True)
+            threading.Thread(target=meet, args=(mesh, clock, id, wanted, 0.5, self.said.append, twins), daemon=True)
         )
         self.threads[-1].start()
 
@@ -50,6 +52,7 @@ def test_nobody_begins_before_all_are_there_and_later_ones_join():
     assert begins == pytest.approx([begins[0]] * 3, abs=0.5)  # by more if a clock that is off were believed
     party.join(1, 100.0, 3)  # which has the lowest number of all
     assert party.begins()[3] == pytest.approx(begins[0], abs=0.5)
+    party.meshes[4].close()
     party.join(4, 50.0, 3)  # and one that was started anew
     assert party.begins() == pytest.approx([begins[0]] * 4, abs=0.5)
 

@@ -1,5 +1,6 @@
 """Buoys on vehicles of their own: processes that meet on a mesh and steer rovers that speak MAVLink, in real time."""
 
+import math
 import os
 import random
 import signal
@@ -8,6 +9,7 @@ from datetime import datetime
 
 import pytest
 
+from certificates import certificates
 from commands import shoal
 from scenarios import fleets, scenario
 
@@ -16,6 +18,7 @@ pytest.importorskip("pyproj", reason="pyproj is not installed: pip install '.[ma
 pytest.importorskip("zenoh", reason="the extra fleet is not installed")
 
 from shoal.buoy.sail import Gear, mesh_of, others_of
+from shoal.buoy.trust import key_in
 from shoal.buoy.zenoh_mesh import ZenohMesh
 from vehicles import ORIGIN, Buoys, Sea, free_ports, wait_until
 
@@ -104,6 +107,85 @@ def test_three_buoys_meet_steer_and_outlive_what_befalls_them(fleet):
     assert last.startswith("shoal: buoy 0 stopped its vehicle; decided in ")
     assert last.endswith(".csv")
     assert int(last.split(" of no use")[0].split()[-1].replace(",", "")) >= 2000
+
+
+def test_vehicles_obey_who_has_key_and_certificate_and_nobody_else(tmp_path, capsys):
+    ours, theirs = certificates(tmp_path)
+    key, wrong = tmp_path / "key", tmp_path / "wrong"
+    key_in(key), key_in(wrong)
+    ports = free_ports(4, socket.SOCK_DGRAM)
+    sea = Sea([*PLACES, (60.0, 0.0)], ports)
+    meshes = [f"127.0.0.1:{port}" for port in free_ports(4, socket.SOCK_STREAM)]
+    options = ["--mesh-config", str(ours), "--command-key", str(key)]
+    fleet = Buoys(tmp_path, afloat(), [f"127.0.0.1:{port}" for port in ports], meshes, dict.fromkeys(range(4), options))
+
+    def command(*words, key=key, config=ours, wait=20):
+        more = ["--mesh-config", config] if config else []
+        return shoal(capsys, "command", meshes[0], *words, "--key", key, *more, "--wait", wait)
+
+    def wants(id):
+        row = fleet.rows(id)[-1]
+        return row["want_x"] + " " + row["want_y"]
+
+    def lies_still(id):
+        return wants(id) == "0.000 0.000"
+
+    try:
+        for id in range(3):
+            fleet.start(id)
+        fleet.wait_for("step 0 of 5,000")
+        wait_until(lambda: all(len(fleet.rows(id)) > 5 and not lies_still(id) for id in range(3)))
+
+        sea.rovers[1].blind = True  # it does not know its place, and is a buoy all the same
+        wait_until(lambda: "where it is" in fleet.rows(1)[-1]["note"])
+        code, out, err = command("hold")
+        assert (code, err) == (0, "")
+        assert sorted(int(id) for line in out.splitlines() for id in _numbers(line)) == [0, 1, 2]
+        sea.rovers[1].blind = False
+        wait_until(lambda: all(lies_still(id) for id in range(3)))
+        wait_until(lambda: all(math.hypot(rover.east, rover.north) < 0.01 for rover in sea.rovers[:3]))
+
+        for who, words in (
+            ({"key": wrong}, "no buoy of "),
+            ({"config": theirs}, "no fleet is there"),
+            ({"config": None}, "no fleet is there"),
+        ):
+            code, out, err = command("resume", **who, wait=1)
+            assert (code, out, words in err, err.count("\n")) == (2, "", True, 2)
+
+        x, y = sea.place(1)
+        sea.rovers[1].lon, sea.rovers[1].lat = sea.frame.geographic(x + 5.0, y)  # a current sets it off
+        assert command("recall", "--buoy", 1)[:2] == (0, command_said(fleet, 1, "recall"))
+        wait_until(lambda: abs(sea.place(1)[0]) < 3.0)
+        assert lies_still(0)
+        assert command("set", "area.width=100")[0] == 2  # no field that may change on the way
+        assert command("set", "neighbors=1")[0] == 0
+        assert command("resume")[0] == 0
+        wait_until(lambda: not any(lies_still(id) for id in range(3)))
+
+        fleet.start(3, id=1)  # on another vehicle, under a number that is there
+        assert fleet.processes[3].wait(60.0) == 2
+        assert "--id: is 1, but a buoy 1 is on the mesh already" in fleet.said(3)
+        assert not sea.rovers[3].heard  # it did not touch its vehicle
+        assert fleet.rows(1)[-1]["heard"] == "2"
+        assert fleet.interrupt(1) == 130
+    finally:
+        fleet.close()
+        sea.close()
+
+
+def _numbers(line):
+    """Of `obeyed from step 7 on: buoy 0-1`, 0 and 1."""
+    for part in line.partition(": buoy ")[2].split(", "):
+        first, _, last = part.partition("-")
+        yield from range(int(first), int(last or first) + 1)
+
+
+def command_said(fleet, id, words):
+    """What `shoal command` must have printed of one buoy that obeys, by its log."""
+    wait_until(lambda: any(f"on: {words}" in row["note"] for row in fleet.rows(id)))
+    note = next(row["note"] for row in fleet.rows(id) if f"on: {words}" in row["note"])
+    return f"obeyed from step {note.split('ordered from step ')[1].split(' on:')[0]} on: buoy {id}\n"
 
 
 def test_one_list_of_addresses_does_for_all():

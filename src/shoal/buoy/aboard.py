@@ -90,6 +90,7 @@ class Aboard:
         said = []
         for id, reading in readings_of(tick):
             said.append(self.buoys[id].report(reading, tick.step).to_bytes())
+            self.inbox.spoke(id, tick.step, said[-1])
         return said
 
     def hear(self, messages: Iterable[bytes], step: int) -> None:

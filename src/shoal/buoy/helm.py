@@ -15,6 +15,7 @@ from shoal.buoy.logbook import Logbook
 from shoal.buoy.mesh import Peers
 from shoal.buoy.paced import HALF
 from shoal.buoy.tether import READINGS, Tick
+from shoal.buoy.twins import Twins
 from shoal.core.messages import Reading
 from shoal.scenario.schema import Scenario
 
@@ -34,11 +35,13 @@ class Helm:
     aboard : the one buoy; mesh : that carries its reports; body : what it steers
     clock : of all buoys, begun
     log : what keeps what it does
+    twins : looks out for another buoy of its number
     wait : lets some seconds pass
 
     Attributes
     ----------
-    counts : steps in which it `decided`, was `unready`, `disobeyed` or `alone`; steps `skipped`; silences of the swarm
+    counts : steps in which it `decided`, was `unready`, `disobeyed`, `alone` or `twinned`; steps `skipped`; silences of
+        the swarm
     delays : how many reports of a step arrived so many milliseconds after it began
     """
 
@@ -50,6 +53,7 @@ class Helm:
         body: Body,
         clock: CommonClock,
         log: Logbook,
+        twins: Twins,
         *,
         wait: Callable[[float], None] = time.sleep,
     ) -> None:
@@ -58,6 +62,8 @@ class Helm:
         (self._me,) = aboard.ids
         self._buoy = aboard.buoys[self._me]
         self._aboard, self._mesh, self._body, self._clock, self._log = aboard, mesh, body, clock, log
+        self._twins = twins
+        twins.under_way()
         self._everybody = np.ones(scenario.agents, bool)
         self._period, self._interval = scenario.time_step, scenario.report_steps
         self._wait = wait
@@ -73,6 +79,7 @@ class Helm:
         Raises
         ------
         StrategyError : the strategy fails
+        FleetError : a buoy of this number was there first, and stays
         """
         done = max(-1, self._clock.step() - 1)
         while (step := self._next(done)) < steps:
@@ -101,18 +108,28 @@ class Helm:
         except UnreadyError as error:
             self.counts["unready"] += 1
             self._listen(step)
+            notes = [str(error.args[1]), *self._attend(Tick(step, 0, _row(self._me, _NOWHERE), self._everybody))]
             self._aboard.inbox.forget(step)
-            self._log.lack(step, str(error.args[1]))
+            self._log.lack(step, "; ".join(filter(None, (*notes, self._twin()))))
             return
         tick = Tick(step, 0, _row(self._me, reading), self._everybody)
         for report in self._aboard.speak(tick):
             self._mesh.publish(report)
         heard = self._listen(step)
-        orders = self._attend(tick)
+        notes = self._attend(tick)
         (want,) = self._aboard.act(tick).wants
         velocity = self._buoy.limited(reading, *map(float, want))
         self.counts["decided"] += 1
-        self._log.keep(step, reading, velocity, heard, "; ".join(filter(None, (*orders, self._steer(velocity)))))
+        notes = [*notes, self._steer(velocity), self._twin()]
+        self._log.keep(step, reading, velocity, heard, "; ".join(filter(None, notes)))
+
+    def _twin(self) -> str:
+        """What is to be noted of another buoy of this number."""
+        there = self._twins.look()
+        if not self._twins.hear(self._aboard.inbox.foreign) and not there:
+            return ""
+        self.counts["twinned"] += 1
+        return f"there is another buoy {self._me}"
 
     def _attend(self, tick: Tick) -> list[str]:
         """Take orders that arrived, to be obeyed from the next step on, and pass them on; return what came of them."""
@@ -169,6 +186,7 @@ class Helm:
 
 
 _NOBODY = np.zeros(0, READINGS)
+_NOWHERE = Reading(0.0, 0.0, 0.0, 0.0, False)
 
 
 def _row(id: int, reading: Reading) -> np.ndarray:

@@ -5,6 +5,7 @@ from collections.abc import Collection
 
 from shoal.core.errors import MessageError
 from shoal.core.messages import Report
+from shoal.core.wire import VERSION, wire_bytes
 
 AHEAD = 2  # steps that a report may be ahead of us: clocks differ, and others may be a step further
 
@@ -24,10 +25,14 @@ class Inbox:
     counts : how many reports were new, and how many late, duplicate, changed, reordered, early, damaged or strange;
         reordered ones are new, too, and changed ones took the place of what their speaker had said of the same step, by
         a clock that was ahead; all others were dropped
+    foreign : how many of all these were said by others under a number of this process, of steps at which it spoke
     """
 
     def __init__(self, agents: int, told: tuple[str, ...], time_step: float, kept: int) -> None:
         self.counts: Counter[str] = Counter()
+        self.foreign = 0
+        self._size = wire_bytes(len(told))
+        self._own: dict[tuple[int, int], set[bytes]] = {}
         self._agents = agents
         self._told = told
         self._time_step = time_step
@@ -47,6 +52,9 @@ class Inbox:
         data : what arrived
         now : number of the step that it arrived in
         """
+        if len(data) != self._size or data[0] != VERSION:  # garbage must cost nothing
+            self.counts["damaged"] += 1
+            return None
         try:
             report = Report.from_bytes(data, self._told)
         except MessageError:
@@ -57,6 +65,7 @@ class Inbox:
             counts["strange"] += 1
             return None
         step = round(steps)
+        self.foreign += (step, id) in self._own and data not in self._own[step, id]
         if step > now + AHEAD:
             counts["early"] += 1
         elif step < max(0, now - self._kept):
@@ -73,6 +82,10 @@ class Inbox:
             self._last[id] = max(step, last)
         return report if self._said.get(step, {}).get(id) == report else None
 
+    def spoke(self, id: int, step: int, data: bytes) -> None:
+        """Note what a buoy of this process says itself at a step: all else under its number is another's."""
+        self._own.setdefault((step, id), set()).add(data)
+
     def step_of(self, report: Report) -> int:
         """The step at which a report was said."""
         return round(report.time / self._time_step)
@@ -81,6 +94,8 @@ class Inbox:
         """Drop what nobody will ask for from a step on, and what was heard by a clock that was ahead."""
         for step in [step for step in self._said if step < now - self._kept or step > now + AHEAD]:
             del self._said[step]
+        for step, id in [key for key in self._own if key[0] < now - self._kept or key[0] > now + AHEAD]:
+            del self._own[step, id]
 
     def of(self, step: int) -> dict[int, Report]:
         """What was said at a step, as far as it arrived, by speaker."""

@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 from shoal.buoy.clock import CommonClock, numbers
 from shoal.buoy.mesh import Peers
+from shoal.buoy.twins import Twins
 
 LEAD = 1.0  # [s] beside two steps from saying when step 0 is to its begin: all must have heard of it
 _LOOK = 0.05  # [s] between two questions
@@ -17,9 +18,12 @@ def meet(
     wanted: int,
     period: float,
     tell: Callable[[str], None],
+    twins: Twins,
     wait: Callable[[float], None] = time.sleep,
 ) -> None:
     """Wait until it is known when step 0 begins, or began: who comes later joins those who are under way.
+
+    Nobody begins while another buoy of its number is there that came first.
 
     Parameters
     ----------
@@ -28,11 +32,19 @@ def meet(
     wanted : so many buoys must be there for the first to begin
     period : of a step [s]
     tell : called with a sentence when somebody came or left
+    twins : looks out for another of this number
     wait : lets some seconds pass
+
+    Raises
+    ------
+    FleetError : another stays
     """
     turn, before = 0, -1
     mesh.answer(clock.answer)
     while True:
+        if twins.second():
+            wait(_LOOK)
+            continue
         there = numbers(mesh.nodes())
         clock.hear(there)
         if clock.begin is not None:

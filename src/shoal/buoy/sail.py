@@ -16,6 +16,7 @@ from shoal.buoy.logbook import Logbook
 from shoal.buoy.meeting import meet
 from shoal.buoy.orderbook import Orderbook
 from shoal.buoy.trust import NOBODY, Trust, read_key
+from shoal.buoy.twins import Twins
 from shoal.buoy.zenoh_mesh import ZenohMesh, protocol_of
 from shoal.core.errors import FleetError
 from shoal.scenario.briefing import fleet_of
@@ -64,7 +65,7 @@ def sail(scenario: Source, id: int, gear: Gear, tell: Callable[[str], None]) -> 
     Raises
     ------
     ScenarioError, StrategyError : as Buoy; or the scenario does not say where it is
-    FleetError : an address cannot be used, or so many buoys cannot be waited for
+    FleetError : an address cannot be used, so many buoys cannot be waited for, or the buoy is there already
     BodyError : body or sensor cannot be had
     RecordError : its log cannot be written
     MissingExtraError : a library is needed and absent
@@ -88,8 +89,6 @@ def sail(scenario: Source, id: int, gear: Gear, tell: Callable[[str], None]) -> 
         aboard.warm()  # compiles: nothing must, under way
         log = Logbook(gear.out, id, frame)
         stack.callback(log.close)
-        body = open_body(gear.body, scenario, id, detector=detector, arm=gear.arm, key=gear.key)
-        stack.callback(body.close)
         protocol = protocol_of(gear.trust.mesh_config)
         mesh = ZenohMesh(
             mesh_of(scenario),
@@ -98,17 +97,25 @@ def sail(scenario: Source, id: int, gear: Gear, tell: Callable[[str], None]) -> 
             connect=[f"{protocol}/{each}" for each in others_of(gear)],
             blocks=False,
             config=gear.trust.mesh_config,
+            joins=False,
         )
         stack.callback(mesh.close)
+        twins = Twins(mesh, id, time.monotonic, tell)
+        twins.wait(time.sleep)
+        body = open_body(gear.body, scenario, id, detector=detector, arm=gear.arm, key=gear.key)
+        stack.callback(body.close)
+        if gear.listen.endswith(":0"):
+            tell(f"buoy {id} listens at {mesh.place}")
         helm = None
         try:
-            meet(mesh, clock, id, wanted, period, tell)
+            mesh.join()
+            meet(mesh, clock, id, wanted, period, tell, twins)
             tell(f"buoy {id}: step {max(0, clock.step()):,} of {scenario.steps:,}")
-            helm = Helm(scenario, aboard, mesh, body, clock, log)
+            helm = Helm(scenario, aboard, mesh, body, clock, log, twins)
             helm.run(scenario.steps)
         finally:
             body.close()
-            tell(_summary(id, helm, clock, aboard, log))
+            tell(_summary(id, helm, clock, aboard, log, twins))
 
 
 def mesh_of(scenario: Scenario) -> str:
@@ -122,7 +129,7 @@ def others_of(gear: Gear) -> list[str]:
     return told[: told.index(gear.listen)] if gear.listen in told else told
 
 
-def _summary(id: int, helm: Helm | None, clock: CommonClock, aboard: Aboard, log: Logbook) -> str:
+def _summary(id: int, helm: Helm | None, clock: CommonClock, aboard: Aboard, log: Logbook, twins: Twins) -> str:
     """What it did, in one line."""
     if helm is None:
         return f"buoy {id} ended before the first step; its vehicle was stopped"
@@ -136,5 +143,7 @@ def _summary(id: int, helm: Helm | None, clock: CommonClock, aboard: Aboard, log
         f"{heard['new']:,} reports were new, {sum(heard.values()) - heard['new'] - heard['reordered']:,} of no use",
         f"step 0 was moved by {1000 * clock.furthest:.1f} ms at most",
     ]
+    if twins.came or aboard.inbox.foreign:
+        said.append(f"another buoy {id} came {twins.came:,} times and said {aboard.inbox.foreign:,} reports")
     kept = f"; log: {log.file}{' (not all of it: the disk is full)' if log.full else ''}" if log.file else ""
     return f"buoy {id} stopped its vehicle; {', '.join(said)}{kept}"

@@ -9,7 +9,7 @@ from typing import Any
 
 from shoal.buoy.aboard import Aboard
 from shoal.buoy.lockstep import Lockstep
-from shoal.buoy.mesh import Mesh
+from shoal.buoy.mesh import MOST, Mesh
 from shoal.buoy.orderbook import Orderbook
 from shoal.buoy.paced import Paced
 from shoal.buoy.tether import Note, from_bytes
@@ -53,13 +53,21 @@ def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: b
         try:
             _say(connection, "hello", ids=list(ids), scenario=scenario.hash, seed=scenario.seed)
             welcome = _note(connection, where, "welcome")
-            aboard = Aboard(scenario, ids, run=welcome["run"], max_age=welcome["max_age"])
-            aboard.warm()
-            if command_key:
-                aboard.orderbook = Orderbook(scenario, welcome["fleet"], command_key, time.time())
-            places = {"connect": welcome["connect"], "listen": welcome["listen"]}
-            mesh = ZenohMesh(welcome["fleet"], str(min(ids)), **places, config=trust.mesh_config)
+            mesh = ZenohMesh(
+                welcome["fleet"],
+                str(min(ids)),
+                connect=welcome["connect"],
+                listen=welcome["listen"],
+                blocks=welcome["period"] is None,  # by the clock nobody is waited for
+                config=trust.mesh_config,
+                room=max(MOST, 4 * scenario.agents),
+            )
             try:
+                _say(connection, "listens", place=mesh.place)
+                aboard = Aboard(scenario, ids, run=welcome["run"], max_age=welcome["max_age"])
+                aboard.warm()
+                if command_key:
+                    aboard.orderbook = Orderbook(scenario, welcome["fleet"], command_key, time.time())
                 _meet(mesh, welcome["nodes"], connection)
                 _say(connection, "ready")
                 _work(aboard, mesh, connection, welcome, scenario.agents)
@@ -90,6 +98,7 @@ def _work(
         seconds=time.monotonic() - begun,
         memory=_memory(),
         counts=dict(aboard.inbox.counts),
+        foreign=aboard.inbox.foreign,
         orders=dict(aboard.orderbook.counts) if aboard.orderbook else {"unread": aboard.unread},
         **facts,
     )

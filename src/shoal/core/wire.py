@@ -13,7 +13,7 @@ from typing import Any
 
 from shoal.core.errors import MessageError
 
-_VERSION = 1
+VERSION = 1
 _CHECK = struct.Struct("<I")
 
 
@@ -31,7 +31,7 @@ def pack(report: Any) -> bytes:
     """
     number, x, y, vx, vy, on_target, told, time, _ = report
     try:
-        body = _body(len(told)).pack(_VERSION, number, time, x, y, vx, vy, bool(on_target), *told)
+        body = _body(len(told)).pack(VERSION, number, time, x, y, vx, vy, bool(on_target), *told)
     except struct.error as error:
         raise MessageError("report", f"cannot be written: {error}", "give an id of 32 bits, and numbers") from error
     _check_finite(report, told)
@@ -63,8 +63,8 @@ def unpack(data: Any, told: tuple[str, ...], report: type[Any]) -> Any:
     if _CHECK.unpack_from(data, len(body))[0] != zlib.crc32(body):
         raise MessageError("report", "is damaged: its checksum does not match", "drop it; the next comes in a step")
     version, number, time, x, y, vx, vy, on_target, *rest = _body(len(told)).unpack(body)
-    if version != _VERSION:
-        problem = f"is of version {version} of the format, this is version {_VERSION}"
+    if version != VERSION:
+        problem = f"is of version {version} of the format, this is version {VERSION}"
         raise MessageError("report", problem, "give all buoys the same version of Shoal")
     numbers = told_class(told)(*rest)
     read = report(number, x, y, vx, vy, bool(on_target), numbers, time)

@@ -25,5 +25,6 @@ class InMemory:
             return [self._aboard.begin(tick)], []
         for report in self._aboard.speak(tick):
             self._mesh.publish(report)
-        self._aboard.hear(self._mesh.take(0.0), tick.step)
+        while messages := self._mesh.take(0.0):
+            self._aboard.hear(messages, tick.step)
         return [self._aboard.act(tick)], []

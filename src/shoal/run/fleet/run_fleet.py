@@ -214,6 +214,9 @@ def _measured(facts: list[dict[str, Any]], by_clock: bool) -> list[str]:
         f"{max(each['memory'] for each in facts) / 2**20:.0f} MiB in the largest of {len(facts)} processes",
         f"of the reports that arrived {counts['new']:,} were new; {', '.join(dropped)}",
     ]
+    foreign = sum(each["foreign"] for each in facts)
+    if foreign:
+        notes.append(f"{foreign:,} reports were said by somebody else under the number of a buoy that reports itself")
     orders: Counter[str] = Counter()
     for each in facts:
         orders.update(each["orders"])
