@@ -70,6 +70,7 @@ def test_a_mesh_that_is_no_fleet_s_beacon_is_told_apart(monkeypatch):
 
     monkeypatch.setattr("shoal.buoy.beacon.PATIENCE", 1.0)
     mesh = ZenohMesh("other", "node", listen=f"tcp/{HOST}:{(port := free_port())}")
+    mesh.join()
     with pytest.raises(FleetError, match="is no fleet"):
         Lookout(HOST, port)
     mesh.close()

@@ -96,7 +96,7 @@ class Scene:
         self.log = Logbook(folder, 0, Frame((5.3, 60.4)), lambda: 1.79e9 + self.now[0])
         self.told = []
         twins = Twins(self.air, 0, lambda: self.now[0], self.told.append)
-        self.helm = Helm(swarm, self.aboard, self.air, self.boat, self.clock, self.log, twins, wait=self.wait)
+        self.helm = Helm(self.aboard, self.air, self.boat, self.clock, self.log, twins, wait=self.wait)
 
     def wait(self, seconds):
         assert seconds > 0.0

@@ -78,6 +78,7 @@ def test_three_buoys_meet_steer_and_outlive_what_befalls_them(fleet):
     wait_until(lambda: fleet.sea.place(0)[0] > before + 1.0 and fleet.sea.place(1)[1] < PLACES[1][1])
 
     stranger = ZenohMesh(mesh_of(afloat()), "stranger", connect=[f"tcp/{each}" for each in fleet.meshes])
+    stranger.join()
     wait_until(lambda: stranger.alive() == 4)
     chance = random.Random(7)
     for _ in range(3000):

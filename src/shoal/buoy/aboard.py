@@ -40,7 +40,7 @@ class Aboard:
 
     Attributes
     ----------
-    ids : as given; present : those of them that are there
+    scenario, ids : as given; present : those of them that are there
     inbox : what reached them
     orderbook : the orders that did; None: they have no key, and obey none that comes over the mesh
 
@@ -52,7 +52,7 @@ class Aboard:
     def __init__(
         self, scenario: Source, ids: Sequence[int], *, run: int = 0, max_age: int | None = None, relays: bool = False
     ) -> None:
-        scenario = load(scenario)
+        self.scenario = scenario = load(scenario)
         self.ids = self.present = tuple(ids)
         self.orderbook: Orderbook | None = None
         self._ordered: list[Command] = []

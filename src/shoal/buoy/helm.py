@@ -17,7 +17,6 @@ from shoal.buoy.paced import HALF
 from shoal.buoy.tether import READINGS, Tick
 from shoal.buoy.twins import Twins
 from shoal.core.messages import Reading
-from shoal.scenario.schema import Scenario
 
 QUIET = 3.0  # [s] beside two report intervals without a word of any other buoy, after which the vehicle is stopped
 MATCHING = 1.0  # [s] at least between two questions for the time
@@ -31,7 +30,6 @@ class Helm:
 
     Parameters
     ----------
-    scenario : of the swarm
     aboard : the one buoy; mesh : that carries its reports; body : what it steers
     clock : of all buoys, begun
     log : what keeps what it does
@@ -47,7 +45,6 @@ class Helm:
 
     def __init__(
         self,
-        scenario: Scenario,
         aboard: Aboard,
         mesh: Peers,
         body: Body,
@@ -59,6 +56,7 @@ class Helm:
     ) -> None:
         self.counts: Counter[str] = Counter()
         self.delays: Counter[int] = Counter()
+        scenario = aboard.scenario
         (self._me,) = aboard.ids
         self._buoy = aboard.buoys[self._me]
         self._aboard, self._mesh, self._body, self._clock, self._log = aboard, mesh, body, clock, log

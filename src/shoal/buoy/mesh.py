@@ -5,7 +5,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Protocol
 
-MOST = 8192  # messages that wait to be taken; of more, the oldest are dropped
+MOST = 16_384  # messages that wait to be taken; of more, the oldest are dropped
 BATCH = 1024  # that are taken at a time, so that whoever takes them can look at the clock between two batches
 _SHORTEST, _LONGEST = 1e-4, 2e-3  # [s] between two looks
 

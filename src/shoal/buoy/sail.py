@@ -97,7 +97,6 @@ def sail(scenario: Source, id: int, gear: Gear, tell: Callable[[str], None]) -> 
             connect=[f"{protocol}/{each}" for each in others_of(gear)],
             blocks=False,
             config=gear.trust.mesh_config,
-            joins=False,
         )
         stack.callback(mesh.close)
         twins = Twins(mesh, id, time.monotonic, tell)
@@ -111,7 +110,7 @@ def sail(scenario: Source, id: int, gear: Gear, tell: Callable[[str], None]) -> 
             mesh.join()
             meet(mesh, clock, id, wanted, period, tell, twins)
             tell(f"buoy {id}: step {max(0, clock.step()):,} of {scenario.steps:,}")
-            helm = Helm(scenario, aboard, mesh, body, clock, log, twins)
+            helm = Helm(aboard, mesh, body, clock, log, twins)
             helm.run(scenario.steps)
         finally:
             body.close()

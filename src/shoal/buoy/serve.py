@@ -9,7 +9,7 @@ from typing import Any
 
 from shoal.buoy.aboard import Aboard
 from shoal.buoy.lockstep import Lockstep
-from shoal.buoy.mesh import MOST, Mesh
+from shoal.buoy.mesh import Peers
 from shoal.buoy.orderbook import Orderbook
 from shoal.buoy.paced import Paced
 from shoal.buoy.tether import Note, from_bytes
@@ -60,7 +60,6 @@ def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: b
                 listen=welcome["listen"],
                 blocks=welcome["period"] is None,  # by the clock nobody is waited for
                 config=trust.mesh_config,
-                room=max(MOST, 4 * scenario.agents),
             )
             try:
                 _say(connection, "listens", place=mesh.place)
@@ -80,7 +79,7 @@ def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: b
 
 
 def _work(
-    aboard: Aboard, mesh: Mesh, connection: "Connection[bytes, bytes]", welcome: dict[str, Any], agents: int
+    aboard: Aboard, mesh: Peers, connection: "Connection[bytes, bytes]", welcome: dict[str, Any], agents: int
 ) -> None:
     driver: Lockstep | Paced
     if welcome["period"] is None:
@@ -104,8 +103,8 @@ def _work(
     )
 
 
-def _meet(mesh: Mesh, nodes: int, connection: "Connection[bytes, bytes]") -> None:
-    """Wait until all nodes of the mesh are there.
+def _meet(mesh: Peers, nodes: int, connection: "Connection[bytes, bytes]") -> None:
+    """Join the mesh, and wait until all its nodes are there.
 
     Raises
     ------
@@ -113,6 +112,7 @@ def _meet(mesh: Mesh, nodes: int, connection: "Connection[bytes, bytes]") -> Non
     EOFError, OSError : the sea is gone
     """
     begun = time.monotonic()
+    mesh.join()
     while (there := mesh.alive()) < nodes:
         if time.monotonic() - begun > _MEETING:
             raise FleetError("mesh", f"has {there} of {nodes} nodes after {_MEETING:g} s", "see why the others end")

@@ -22,6 +22,8 @@ _RETRY = {"period_init_ms": 200, "period_max_ms": 2_000, "period_increase_factor
 class ZenohMesh:
     """A node of a mesh over TCP: it listens, and connects to the nodes that it is told of, again when a link breaks.
 
+    It hears and speaks from the start, and is there for the others when it joins.
+
     No node passes on what another says: each pair needs a link, so that one of the two is told of the other.
 
     Parameters
@@ -32,9 +34,7 @@ class ZenohMesh:
     listen : address to listen at; the default can be reached from this machine only, on a free port
     blocks : whether `publish` waits where a link is slow, so that nothing is lost; else it is lost there
     config : file of zenoh's own configuration, such as certificates; what is said above counts more
-    hears : whether it listens to reports and orders; else it only speaks, and none wait for it
-    joins : whether it is there for the others at once; else after `join`
-    room : for so many messages of a kind that wait to be taken; of more, the oldest are dropped
+    hears : whether it listens to reports and orders; else it only speaks
 
     Attributes
     ----------
@@ -56,8 +56,6 @@ class ZenohMesh:
         blocks: bool = True,
         config: str | Path | None = None,
         hears: bool = True,
-        joins: bool = True,
-        room: int = MOST,
     ) -> None:
         zenoh = _zenoh("a mesh between processes")
         wanted: dict[str, Any] = {
@@ -77,9 +75,9 @@ class ZenohMesh:
             self._session, (self.place,) = _opened(zenoh, [listen], connect, wanted, config)
             atexit.register(self.close)  # Python would wait for its threads for ever
             if hears:
-                self._told = self._session.declare_subscriber(self._order_key, zenoh.handlers.RingChannel(room))
+                self._told = self._session.declare_subscriber(self._order_key, zenoh.handlers.RingChannel(MOST))
             if hears and node is not None:
-                self._heard = self._session.declare_subscriber(f"{fleet}/reports", zenoh.handlers.RingChannel(room))
+                self._heard = self._session.declare_subscriber(f"{fleet}/reports", zenoh.handlers.RingChannel(MOST))
             self._publisher = self._session.declare_publisher(
                 f"{fleet}/reports",
                 congestion_control=zenoh.CongestionControl.BLOCK if blocks else zenoh.CongestionControl.DROP,
@@ -89,8 +87,6 @@ class ZenohMesh:
             self._watch = self._session.liveliness().declare_subscriber(
                 f"{fleet}/alive/*/*", self._take_note, history=True
             )
-            if joins and node is not None:
-                self.join()
         except zenoh.ZError as error:
             where = ", ".join([listen, *connect])
             problem = f"cannot be a mesh: {_words(error)}"

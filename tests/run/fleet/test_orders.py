@@ -43,6 +43,8 @@ class TestCertificates:
             ZenohMesh("shoal/1", "none", connect=[place.replace("tls", "tcp")]),
             ZenohMesh("shoal/1", "friend", **tls, config=ours),
         ]
+        for mesh in meshes:
+            mesh.join()
         listener, *strangers, friend = meshes
         try:
             assert wait_for(2, listener) == 2

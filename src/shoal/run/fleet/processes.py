@@ -99,6 +99,7 @@ class Processes:
         anywhere = f"{protocol_of(trust.mesh_config)}/{HOST}:0"
         name = f"shoal/{secrets.token_hex(4)}"
         mesh = ZenohMesh(name, "sea", listen=anywhere, config=trust.mesh_config, hears=False)
+        mesh.join()
         self.mesh: Mesh = mesh
         self._places = [mesh.place]  # where all listen so far: whoever comes connects to them
         self._folder = TemporaryDirectory(prefix="shoal-fleet-")
