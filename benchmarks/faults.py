@@ -69,6 +69,8 @@ def sea():
     silent = [note for note in notes if "was silent from" in note and not note.endswith("on")]
     frozen = [f"buoy {id} " for id in range(each, 2 * each)]
     check("the frozen ones were silent, and rejoined", all(any(f in note for note in silent) for f in frozen))
+    others = [note for note in silent if not any(f in note for f in frozen)]
+    check(f"nobody else was silent, whatever the garbage: {len(others)} times", not others)
     check("nobody is silent at the end", not any(note.endswith(" on") for note in notes))
     counted = int(next(n for n in notes if "damaged" in n).split(" damaged")[0].split()[-1].replace(",", ""))
     check(

@@ -15,6 +15,9 @@ from shoal.core.errors import FleetError, MissingExtraError
 ANY = "shoal/*"  # the name of every mesh
 _PATIENCE = 60_000  # milliseconds in which a busy machine may open a link
 _ANSWERS = 1.0  # seconds in which who is asked answers
+_BATCH = 2048  # bytes of a packet: each message that waits to be taken holds on to one
+_BATCHES = 16  # packets that wait for a link, the most that zenoh can have: a step's reports of many buoys
+_HOLD_UP = 20_000  # microseconds in which a busy link takes a message; then it is lost there, as are all until it does
 _TRIES = 20  # to listen at a free port, which others may take first
 _RETRY = {"period_init_ms": 200, "period_max_ms": 2_000, "period_increase_factor": 1.5}  # of links that broke, too
 
@@ -64,7 +67,12 @@ class ZenohMesh:
             "connect/retry": _RETRY,
             "transport/unicast/open_timeout": _PATIENCE,
             "transport/unicast/accept_timeout": _PATIENCE,
+            "transport/link/tx/batch_size": _BATCH,
+            "transport/link/tx/queue/size/real_time": _BATCHES,
+            "transport/link/tx/queue/size/data": _BATCHES,
+            "transport/link/tx/queue/congestion_control/drop/wait_before_drop": _HOLD_UP,
         }
+        room = MOST if blocks else MOST // 4
         self._nodes: set[str] = set()
         self._order_key = f"{fleet}/orders"
         self._clocks, self._node = f"{fleet}/clock", node
@@ -75,9 +83,9 @@ class ZenohMesh:
             self._session, (self.place,) = _opened(zenoh, [listen], connect, wanted, config)
             atexit.register(self.close)  # Python would wait for its threads for ever
             if hears:
-                self._told = self._session.declare_subscriber(self._order_key, zenoh.handlers.RingChannel(MOST))
+                self._told = self._session.declare_subscriber(self._order_key, zenoh.handlers.RingChannel(room))
             if hears and node is not None:
-                self._heard = self._session.declare_subscriber(f"{fleet}/reports", zenoh.handlers.RingChannel(MOST))
+                self._heard = self._session.declare_subscriber(f"{fleet}/reports", zenoh.handlers.RingChannel(room))
             self._publisher = self._session.declare_publisher(
                 f"{fleet}/reports",
                 congestion_control=zenoh.CongestionControl.BLOCK if blocks else zenoh.CongestionControl.DROP,
