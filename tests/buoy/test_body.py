@@ -40,7 +40,7 @@ class TestNames:
         ],
     )
     def test_what_is_none_is_one_error(self, text, said):
-        pytest.importorskip("pyproj", reason="pyproj is not installed: pip install '.[mavlink]'")
+        pytest.importorskip("pyproj", reason="pyproj is not installed: pip install '.[maritime]'")
         with pytest.raises(BodyError, match=r"\n  fix: ") as error:
             open_body(text, {**read_table("oceans2020"), **AT_SEA}, 0)
         assert said in str(error.value)
@@ -75,7 +75,7 @@ class TestNames:
         [("pymavlink.dialects.v20", "mavlink:udp:127.0.0.1:0"), ("serial", "mavlink:/dev/ttyACM0,115200")],
     )
     def test_without_a_library_it_says_which(self, monkeypatch, library, text):
-        pytest.importorskip("pyproj", reason="pyproj is not installed: pip install '.[mavlink]'")
+        pytest.importorskip("pyproj", reason="pyproj is not installed: pip install '.[maritime]'")
         monkeypatch.setitem(sys.modules, library, None)
         with pytest.raises(MissingExtraError, match=r"pip install '\.\[mavlink\]'"):
             open_body(text, {**read_table("oceans2020"), **AT_SEA}, 0)

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-pytest.importorskip("pyproj", reason="pyproj is not installed: pip install '.[mavlink]'")
+pytest.importorskip("pyproj", reason="pyproj is not installed: pip install '.[maritime]'")
 
 from scenarios import small
 from shoal.buoy.aboard import Aboard

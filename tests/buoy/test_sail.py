@@ -14,7 +14,7 @@ from commands import shoal
 from scenarios import fleets, scenario
 
 pytest.importorskip("pymavlink", reason="pymavlink is not installed: pip install '.[mavlink]'")
-pytest.importorskip("pyproj", reason="pyproj is not installed: pip install '.[mavlink]'")
+pytest.importorskip("pyproj", reason="pyproj is not installed: pip install '.[maritime]'")
 pytest.importorskip("zenoh", reason="the extra fleet is not installed")
 
 from shoal.buoy.sail import Gear, mesh_of, others_of

@@ -32,3 +32,22 @@ def test_without_the_compiler(tmp_path):
         ["show", str(tmp_path / "r"), "--json"],
     ]
     subprocess.run([sys.executable, "-c", SCRIPT.format(commands=commands)], check=True, stdout=subprocess.DEVNULL)
+
+
+BUOY = """
+import sys
+sys.modules["numba"] = None
+import shoal.cli.buoy, shoal.buoy.serve, shoal.buoy.sail, shoal.buoy.mavlink_body
+from shoal.buoy.aboard import Aboard
+from shoal.buoy.ground import GroundFrame
+
+GroundFrame((5.3, 60.4)).local(5.4, 60.5)
+Aboard("oceans2020", [7]).warm()
+needless = {"pyproj", "rich", "xml", "scipy", "pandas", "matplotlib", "shoal.tracks", "shoal.run"}
+print(*sorted(needless & set(sys.modules)))
+"""
+
+
+def test_a_buoy_on_a_small_computer_imports_what_it_needs_only():
+    done = subprocess.run([sys.executable, "-c", BUOY], check=True, stdout=subprocess.PIPE, text=True)
+    assert done.stdout == "\n"

@@ -12,7 +12,6 @@ from shoal.core.errors import did_you_mean
 from shoal.core.text import quoted
 from shoal.scenario.briefing import fleet_of
 from shoal.scenario.load import Source, load
-from shoal.scenario.on_track import places_on_tracks
 
 KEPT = 2.0  # [s] a sensor that says nothing for longer sees nothing
 LONGEST = 1000  # [bytes] of a message
@@ -117,6 +116,8 @@ class RecordedTargets:
     """
 
     def __init__(self, scenario: Source, id: int, elapsed: Callable[[], float]) -> None:
+        from shoal.scenario.on_track import places_on_tracks  # and all readers of tracks with it
+
         scenario = load(scenario)
         self._radius = scenario.fleets[fleet_of(scenario, id)].sensor_radius
         self._places = places_on_tracks(scenario)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from shoal.cli.numbers import MaybeInteger
-from shoal.cli.progress import note
+from shoal.cli.output import tell
 
 if TYPE_CHECKING:
     from shoal.buoy.trust import Trust
@@ -102,7 +102,7 @@ def buoy(
     others = [":".join(map(str, _address("--connect", each))) for each in connect.split(",")] if connect else []
     here = "127.0.0.1:0" if listen is None else ":".join(map(str, _address("--listen", listen)))
     key = None if body_key is None else _key_in(body_key)
-    sail(scenario, ids[0], Gear(body, sensor or "none", arm, key, here, others, wait, out, trust), note)
+    sail(scenario, ids[0], Gear(body, sensor or "none", arm, key, here, others, wait, out, trust), tell)
 
 
 def _in_a_stand_in(scenario: str, ids: list[int], connect: str, trust: "Trust") -> None:
