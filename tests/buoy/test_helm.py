@@ -196,6 +196,15 @@ def test_an_order_is_obeyed_also_by_one_that_does_not_know_its_place(scene):
     assert "ordered from step 3 on: hold" in scene.rows()[2]["note"]
 
 
+def test_one_that_warmed_up_sets_out_where_it_is_first_and_is_recalled_to_there(scene):
+    scene.aboard.warm()
+    scene.aboard.orderbook = Orderbook(scene.swarm, "fleet", KEY, time.time() - 10.0)
+    recall = Order("fleet", time.time_ns(), time.time() + 60.0, "recall").to_bytes(KEY)
+    scene.events = {5: lambda: scene.air.ordered.append(recall)}
+    scene.run(10)  # from x = -4.9 on, 0.1 m a step
+    assert all(told[0] < 0.0 for told in scene.boat.told[6:-1])
+
+
 class TestTwins:
     """Another buoy of the same number."""
 

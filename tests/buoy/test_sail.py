@@ -156,10 +156,9 @@ def test_vehicles_obey_who_has_key_and_certificate_and_nobody_else(tmp_path, cap
             code, out, err = command("resume", **who, wait=1)
             assert (code, out, words in err, err.count("\n")) == (2, "", True, 2)
 
-        x, y = sea.place(1)
-        sea.rovers[1].lon, sea.rovers[1].lat = sea.frame.geographic(x + 5.0, y)  # a current sets it off
-        assert command("recall", "--buoy", 1)[:2] == (0, command_said(fleet, 1, "recall"))
+        sea.rovers[1].lon, sea.rovers[1].lat = sea.frame.geographic(5.0, 30.0)  # a current sets it off
         away = math.dist(sea.place(1), PLACES[1])
+        assert command("recall", "--buoy", 1)[:2] == (0, command_said(fleet, 1, "recall"))
         wait_until(lambda: math.dist(sea.place(1), PLACES[1]) < away - 1.0)
         assert lies_still(0)
         assert command("set", "area.width=100")[0] == 2  # no field that may change on the way

@@ -139,7 +139,7 @@ class Buoy:
     def state(self) -> tuple[Any, ...]:
         """All that changes in it, to go back to by `restore`, or to go on from after a restart."""
         memory = self._minds.numbers(self._place)
-        return memory, self.neighbors, self._contact, self.under, self._home, self._sets, self._followed
+        return memory, self.neighbors, self._contact, self.under, self._home, self._sets, self._followed, self._begun
 
     def restore(self, state: tuple[Any, ...]) -> None:
         """Be as it was when it had this state.
@@ -148,12 +148,11 @@ class Buoy:
         ----------
         state : what `state` was
         """
-        memory, neighbors, self._contact, self.under, self._home, sets, self._followed = state
+        memory, neighbors, self._contact, self.under, self._home, sets, self._followed, self._begun = state
         if sets != self._sets:
             self._go_by(sets)
         self.neighbors = neighbors
         self._minds.recall(self._place, memory)
-        self._begun = True
 
     def obey(self, command: Command) -> None:
         """Be under a command from now on, whatever its step is; those that the scenario has it obeys by itself.
