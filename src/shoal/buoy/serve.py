@@ -14,7 +14,7 @@ from shoal.buoy.orderbook import Orderbook
 from shoal.buoy.paced import Paced
 from shoal.buoy.tether import Note, from_bytes
 from shoal.buoy.trust import NOBODY, Trust, read_key
-from shoal.buoy.zenoh_mesh import ZenohMesh
+from shoal.buoy.zenoh_mesh import ZenohMesh, protocol_of
 from shoal.core.errors import FleetError, MessageError
 from shoal.scenario.load import Source, load
 
@@ -41,6 +41,7 @@ def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: b
     """
     scenario = load(scenario)
     command_key = read_key(trust.command_key) if trust.command_key else None
+    protocol_of(trust.mesh_config)  # what is wrong with it is said now; and it is loaded before others wait for it
     where = f"{address[0]}:{address[1]}"
     try:
         connection = Client(address, authkey=key)

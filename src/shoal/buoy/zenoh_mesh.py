@@ -64,6 +64,8 @@ class ZenohMesh:
         wanted: dict[str, Any] = {
             "connect/timeout_ms": -1,  # try for ever
             "connect/exit_on_failure": False,
+            "open/return_conditions/connect_scouted": False,  # half a second, in which others wait for us
+            "open/return_conditions/declares": False,
             "connect/retry": _RETRY,
             "transport/unicast/open_timeout": _PATIENCE,
             "transport/unicast/accept_timeout": _PATIENCE,
@@ -274,6 +276,7 @@ def protocol_of(config: str | Path | None) -> str:
     MissingExtraError : zenoh is not installed
     FleetError : the configuration cannot be used
     """
+    _zenoh("a mesh between processes")
     if config is None:
         return "tcp"
     tls = json.loads(_configured(config).get_json("transport/link/tls")) or {}
