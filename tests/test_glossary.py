@@ -22,7 +22,7 @@ dataset declared difference disc dispatch dive doc drag drawing duration each ed
 executor experiment export exported extra figure file fill film fixed floating folder format frontier frozen geojson
 gpx graph ground guard gyre histogram info inlined inner installed interrupt interval is kept keyword kill kml label
 land layout legend level library listen listing live load lock locked look lowering main map mark meaning measure
-message meta missing move moving name named netcdf new nmea no now older once one open opened option outcome
+message meta missing move moving name named netcdf new nmea no now older one open opened option outcome
 output over page paired panel param pause picture place placement plain play plot plugin polygon print private
 progress projected published quantity range read reason recorded reproduce resample restart result robustness rotation
 running said saved scaled schema scored seek seen self sensing sensitivity sensor server setting several shoal show

@@ -11,6 +11,7 @@ from shoal.buoy.aboard import Aboard
 from shoal.buoy.inbox import Inbox
 from shoal.buoy.mesh import MemoryMesh
 from shoal.buoy.relay import Relay, Relayed
+from shoal.buoy.rows import row_of
 from shoal.core.errors import MessageError
 from shoal.core.messages import Report
 from shoal.run.fleet.adversary import Adversary, Weather
@@ -60,7 +61,7 @@ class TestRelay:
 
     def heard(self, relay, hops, id=7, step=4):
         data = report(id, step).to_bytes()
-        relay.take(Relayed(hops, 1, data).to_bytes() if hops > 1 else data, inbox(), step)
+        relay.take([Relayed(hops, 1, data).to_bytes() if hops > 1 else data], inbox(), step)
         return [Relayed.of(each)[:2] for each in relay.waiting()]
 
     def test_what_is_no_report_is_counted_and_goes_no_further(self):
@@ -71,7 +72,7 @@ class TestRelay:
             Relayed(2, 1, b"noise").to_bytes(),
             Relayed(2, 1, report(99).to_bytes()).to_bytes(),
         ):
-            relay.take(data, mine, 4)
+            relay.take([data], mine, 4)
         assert mine.counts == {"damaged": 3, "strange": 1}
         assert relay.waiting() == []
 
@@ -117,14 +118,13 @@ def test_reports_reach_whom_a_search_reaches(agents, hops, share, seed):
         sent += len(said)
         for id, (relay, mine, mesh) in enumerate(fleet):
             came = [data for data in mesh.take(0.0) if direct[sender(data), id]]
-            for n in chance.permutation(len(came)):
-                relay.take(came[n], mine, 4)
+            relay.take([came[n] for n in chance.permutation(len(came))], mine, 4)
         said = [(mesh, data) for relay, _, mesh in fleet for data in relay.waiting()]
     reached = searched(direct.tolist(), hops)
     for i, (_, mine, _) in enumerate(fleet):
         heard = mine.of(4)
         assert heard.keys() - {i} == {j for j in range(agents) if reached[j][i]}
-        assert heard == {id: report(id) for id in heard}
+        assert heard == {id: row_of(report(id)) for id in heard}
         assert not mine.counts["strange"]
     assert sent <= agents + agents * (agents - 1) * (hops - 1)
 
@@ -149,9 +149,9 @@ def test_in_a_storm_they_come_as_far_as_they_may_and_no_further(hops, reach):
             said = [(id, data) for id, aboard in enumerate(fleet) for data in aboard.relayed()]
     for id, aboard in enumerate(fleet):
         for step in range(40):
-            for author, each in aboard.inbox.of(step).items():
+            for author, row in aboard.inbox.of(step).items():
                 heard[id, author] += 1
-                assert (each.id, aboard.inbox.step_of(each)) == (author, step)
+                assert row == row_of(report(author, step))
     apart = abs(np.subtract.outer(np.arange(6), np.arange(6)))
     assert not heard[apart > reach].any()
     assert (heard[(apart > 0) & (apart <= reach)] > 0).all()

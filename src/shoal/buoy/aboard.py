@@ -5,6 +5,7 @@ Every step in this order: `hear` what the mesh brought, `speak`, `hear` until en
 
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -14,8 +15,9 @@ from shoal.buoy.hearing import Hearing
 from shoal.buoy.inbox import Inbox
 from shoal.buoy.orderbook import Orderbook
 from shoal.buoy.relay import Relay
+from shoal.buoy.rows import Floats, row_of, write
 from shoal.buoy.said import Said
-from shoal.buoy.tether import Commands, Tick, readings_of
+from shoal.buoy.tether import Commands, Tick, numbers_of, readings_of
 from shoal.core.errors import ShoalError
 from shoal.core.links import MOST_LINKED
 from shoal.core.messages import Reading
@@ -66,37 +68,37 @@ class Aboard:
         self._relay = Relay(self.ids, scenario.network.hops if relays else 1)
         self._keeps = scenario.network.max_age > 0
         self._hearing = {id: Hearing(self._max_age) for id in ids}
-        self._hearing_before: dict[int, Hearing] = {}
-        self._before = {id: buoy.state for id, buoy in self.buoys.items()}
+        self._before: tuple[dict[int, tuple[Any, Hearing]], list[Command]] = {}, []
 
     def warm(self) -> None:
         """Decide once, so that what must be compiled is, and forget it."""
-        buoy = self.buoys[self.ids[0]]
+        buoy, reading = self.buoys[self.ids[0]], Reading(0.0, 0.0, 0.0, 0.0, False)
         state = buoy.state
-        reading = Reading(0.0, 0.0, 0.0, 0.0, False)
-        buoy.decide(reading, [buoy.report(reading, 0)._replace(id=buoy.id + 1)], 0)
+        said = Said([row_of(buoy.report(reading, 0)._replace(id=buoy.id + 1))], self._told, 1)
+        near = said.nearest(np.array([buoy.id]), np.array([reading], float), [1])
+        Buoy.decide_together([buoy], np.array([reading], float), said, near, 0)
         buoy.restore(state)
 
     def begin(self, tick: Tick) -> Commands:
         """Set up memories where the buoys lie; nothing is wanted yet."""
         for id, reading in readings_of(tick):
             self.buoys[id].begin(reading)
-        return self._commands(tick, [(0.0, 0.0)] * len(tick.readings))
+        return self._commands(tick, np.zeros((len(tick.readings), 2)))
 
     def speak(self, tick: Tick) -> list[bytes]:
         """What they publish at a step; nothing between two reports of a slower radio."""
         if tick.step % self._interval:
             return []
-        said = []
-        for id, reading in readings_of(tick):
-            said.append(self.buoys[id].report(reading, tick.step).to_bytes())
-            self.inbox.spoke(id, tick.step, said[-1])
+        ids = tick.readings["id"].tolist()
+        here = [self.buoys[id] for id in ids]
+        said = write(Buoy.report_together(here, numbers_of(tick), tick.step), self._told)
+        for id, message in zip(ids, said, strict=True):
+            self.inbox.spoke(id, tick.step, message)
         return said
 
     def hear(self, messages: Iterable[bytes], step: int) -> None:
         """Take what the mesh brought, from its authors or from others who passed it on."""
-        for data in messages:
-            self._relay.take(data, self.inbox, step)
+        self._relay.take(messages, self.inbox, step)
 
     def relayed(self) -> list[bytes]:
         """What they pass on of what they heard, to be published at once."""
@@ -104,8 +106,7 @@ class Aboard:
 
     def heard(self, tick: Tick) -> dict[int, int]:
         """Of whom a report can be heard at a step, and when it was said."""
-        said = self.inbox.newest(self.spoken(tick.step), self._max_age)
-        return {id: self.inbox.step_of(report) for id, report in said.items()}
+        return self.inbox.when(self.spoken(tick.step), self._max_age)
 
     def attend(self, messages: Iterable[bytes], tick: Tick, now: float) -> list[bytes]:
         """Take orders that the mesh brought, to be obeyed from the next step on; return what is to be published.
@@ -152,16 +153,13 @@ class Aboard:
     def act(self, tick: Tick) -> Commands:
         """What they want at a step, from what they measure and hear, and are told to do."""
         self._obey(tick.step)
-        measured, rows = dict(readings_of(tick)), tick.readings
-        here = [self.buoys[id] for id in measured]
-        self._before = {buoy.id: buoy.state for buoy in here}
-        wants: Sequence[Sequence[float]] = []
+        ids, readings = tick.readings["id"].astype(int), numbers_of(tick)
+        here = [self.buoys[id] for id in ids.tolist()]
         for buoy in here:
             buoy.follow(tick.step)
-        if here:
-            said, reaches = self._kept(tick) if self._keeps else self._arrived(tick)
-            near = said.nearest(rows["id"], rows["x"], rows["y"], [buoy.neighbors for buoy in here], reaches)
-            wants = Buoy.decide_together(here, list(measured.values()), said, near, tick.step)
+        said, reaches = self._kept(tick) if self._keeps else self._arrived(tick)
+        near = said.nearest(ids, readings, [buoy.neighbors for buoy in here], reaches)
+        wants = Buoy.decide_together(here, readings, said, near, tick.step)
         self.inbox.forget(tick.step)
         self._relay.forget(tick.step - self._delay - self._interval - self._max_age)
         return self._commands(tick, wants)
@@ -170,26 +168,25 @@ class Aboard:
         """What can be heard where nothing is kept: what was said last, or not long before if it is late; by whom."""
         then = self.spoken(tick.step)
         newest, there = self.inbox.newest(then, self._max_age), tick.alive.tolist()
-        reports = [newest[id] for id in sorted(newest) if then != tick.step or there[id]]
-        said = Said(reports, self._told, len(tick.readings))
+        rows = [newest[id] for id in sorted(newest) if then != tick.step or there[id]]
+        said = Said(rows, self._told, len(tick.readings))
         return said, None if tick.hears is None else tick.hears[:, said.inbox.id]
 
     def _kept(self, tick: Tick) -> tuple[Said, Reaches]:
         """The newest that each has of the others where reports are kept, whoever is there by now."""
         then, ids = self.spoken(tick.step), tick.readings["id"].tolist()
-        self._hearing_before = {id: self._hearing[id].copy() for id in ids}
-        held = []
+        held: list[dict[int, tuple[int, bytes]]] = []
         for number, id in enumerate(ids):
             hearing = self._hearing[id]
             if then >= 0:
                 hearing.reach(then, tick.alive if tick.hears is None else tick.hears[number])
-            held.append([(it.id, it.time, it) for it in hearing.held(self.inbox, then).values()])
-        said = {(id, time): report for each in held for id, time, report in each}
-        rows = {key: row for row, key in enumerate(sorted(said))}
-        reaches = np.zeros((len(held), len(rows)), bool)
+            held.append(hearing.held(self.inbox, then))
+        said = {(id, step): row for each in held for id, (step, row) in each.items()}
+        places = {key: place for place, key in enumerate(sorted(said))}
+        reaches = np.zeros((len(held), len(places)), bool)
         for number, each in enumerate(held):
-            reaches[number, [rows[id, time] for id, time, _ in each]] = True
-        return Said([said[key] for key in rows], self._told, len(held)), reaches
+            reaches[number, [places[id, step] for id, (step, _) in each.items()]] = True
+        return Said([said[key] for key in places], self._told, len(held)), reaches
 
     def links(self, ids: npt.NDArray[np.int32]) -> npt.NDArray[np.bool_] | None:
         """Whom each of n buoys heard when it decided last, (n, N); None of more agents than links are kept of."""
@@ -197,7 +194,7 @@ class Aboard:
             return None
         heard = np.zeros((len(ids), self._agents), np.bool_)
         for row, id in zip(heard, ids.tolist(), strict=True):
-            row[[report.id for report in self.buoys[id].heard]] = True
+            row[self.buoys[id].whom()] = True
         return heard
 
     def spoken(self, step: int) -> int:
@@ -205,19 +202,19 @@ class Aboard:
         arrived = step - self._delay
         return arrived - arrived % self._interval
 
-    def undo(self) -> None:
-        """Forget the last `act`: the step begins again."""
-        for id, state in self._before.items():
-            self.buoys[id].restore(state)
-        self._hearing |= self._hearing_before
+    def mark(self, tick: Tick) -> None:
+        """Note how `act` will find the buoys of a tick, to go back to by `undo`."""
+        ids = tick.readings["id"].tolist()
+        self._before = {id: (self.buoys[id].state, self._hearing[id].copy()) for id in ids}, self._ordered
 
-    def _commands(self, tick: Tick, wants: Sequence[Sequence[float]]) -> Commands:
+    def undo(self) -> None:
+        """Go back to what was marked: the step begins again."""
+        buoys, self._ordered = self._before
+        for id, (state, hearing) in buoys.items():
+            self.buoys[id].restore(state)
+            self._hearing[id] = hearing
+
+    def _commands(self, tick: Tick, wants: Floats) -> Commands:
         ids = tick.readings["id"].astype(np.int32)
-        memory = [self.buoys[id].state[0] for id in ids.tolist()]
-        return Commands(
-            tick.step,
-            tick.turn,
-            ids,
-            np.array(wants, float).reshape(len(ids), 2),
-            np.array(memory, float).reshape(len(ids), -1 if len(ids) else 0),
-        )
+        memory = Buoy.memories([self.buoys[id] for id in ids.tolist()])
+        return Commands(tick.step, tick.turn, ids, wants, memory)

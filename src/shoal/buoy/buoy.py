@@ -3,9 +3,13 @@
 import math
 from collections.abc import Iterable, Sequence
 from functools import reduce
+from operator import attrgetter
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from shoal.buoy.plain import NO_TRUTH, PlainMinds
+from shoal.buoy.rows import ID, ON_TARGET, TIME, TOLD, Floats
 from shoal.buoy.said import Near, Said, nearest_alone
 from shoal.compiler.kernel import plain
 from shoal.compiler.late import compiles
@@ -20,6 +24,9 @@ from shoal.scenario.schema import Scenario
 from shoal.world.motion import maneuvered, speed_scale
 from shoal.world.orders import homeward
 from shoal.world.radio import degree_of, first_degree
+
+_ON_TARGET = Reading._fields.index("on_target")
+_BEGUN = attrgetter("_begun")
 
 
 class Decision(NamedTuple):
@@ -135,6 +142,23 @@ class Buoy:
         said, near = self._heard
         return said.heard(near, self._crew.ranked)
 
+    def whom(self) -> list[int]:
+        """Return whose reports it decided on last, in the order of ids."""
+        return [] if self._heard is None else self._heard[0].speakers(self._heard[1])
+
+    @staticmethod
+    def memories(buoys: Sequence["Buoy"]) -> Floats:
+        """Return what buoys of one scenario remember, (n, M), in the order of the fields.
+
+        Parameters
+        ----------
+        buoys : n of them
+        """
+        found = np.empty((len(buoys), len(buoys[0]._crew.memory) if buoys else 0))
+        for rows, its in _of_one_mind(buoys):
+            found[rows] = its[0]._minds.memories([buoy._place for buoy in its])
+        return found
+
     @property
     def state(self) -> tuple[Any, ...]:
         """All that changes in it, to go back to by `restore`, or to go on from after a restart."""
@@ -231,6 +255,29 @@ class Buoy:
             self.id, float(x), float(y), float(vx), float(vy), bool(on_target), self._minds.told(self._place), time
         )
 
+    @staticmethod
+    def report_together(buoys: Sequence["Buoy"], readings: Floats, step: int) -> Floats:
+        """Return what several buoys tell the others in a step: rows of numbers, (n, 7 + T), see buoy/rows.py.
+
+        Parameters
+        ----------
+        buoys, readings : n of them, and (n, 8) what their instruments say at the start of the step
+        step : number of the step, from 0
+
+        Raises
+        ------
+        MessageError : a reading holds a number that is not finite
+        """
+        Buoy._check_together(buoys, readings, step)
+        tells = len(buoys[0].told) if buoys else 0
+        said = np.empty((len(buoys), TOLD + tells))
+        said[:, :4], said[:, ON_TARGET] = readings[:, :4], readings[:, _ON_TARGET]
+        said[:, ID] = [buoy.id for buoy in buoys]
+        said[:, TIME] = step * (buoys[0]._time_step if buoys else 0.0)
+        if tells:
+            said[:, TOLD:] = Buoy.memories(buoys)[:, :tells]
+        return said
+
     def decide(self, reading: Reading, inbox: Iterable[Report], step: int) -> Decision:
         """Return the velocity wanted in a step, and the report of that step.
 
@@ -255,46 +302,44 @@ class Buoy:
             if each.id not in newest or each.time >= newest[each.id].time:
                 newest[each.id] = each
         said, near = nearest_alone(newest, self.told, report, self.neighbors)
-        ((vx, vy),) = Buoy.decide_together([self], [reading], said, near, step)
+        ((vx, vy),) = Buoy.decide_together([self], np.array([reading], float), said, near, step).tolist()
         return Decision(*self.limited(reading, vx, vy), report)
 
     @staticmethod
-    def decide_together(
-        buoys: Sequence["Buoy"], readings: Sequence[Reading], said: Said, near: Near, step: int
-    ) -> list[list[float]]:
-        """Let buoys decide that followed the scenario's commands so far; return what they want [m/s], before limits.
+    def decide_together(buoys: Sequence["Buoy"], readings: Floats, said: Said, near: Near, step: int) -> Floats:
+        """Let buoys decide that followed the scenario's commands so far.
 
         Parameters
         ----------
-        buoys, readings : n of them, and what their instruments say at the start of the step
+        buoys, readings : n of them, and (n, 8) what their instruments say at the start of the step
         said, near : the reports that reached them, and (n, k, 2) those of their neighbors
         step : number of the step, from 0
+
+        Returns
+        -------
+        (n, 2) what they want [m/s], before their limits
 
         Raises
         ------
         MessageError, StrategyError : as decide
         """
-        for buoy, reading in zip(buoys, readings, strict=True):
-            buoy._check(reading, step)
-        wants: list[list[float]] = [[0.0, 0.0]] * len(buoys)
-        for rows in _of_one_mind(buoys):
-            one, places = buoys[rows[0]], [buoys[n]._place for n in rows]
-            with one._crew.naming_errors():
-                found = one._minds.decide(places, [readings[n] for n in rows], said, near[rows], step)
-            for n, want in zip(rows, found, strict=True):
-                wants[n] = buoys[n]._make_up(readings[n], want, said, near[n], step)
+        Buoy._check_together(buoys, readings, step)
+        wants = np.empty((len(buoys), 2))
+        for rows, its in _of_one_mind(buoys):
+            places = [buoy._place for buoy in its]
+            with its[0]._crew.naming_errors():
+                wants[rows] = its[0]._minds.decide(places, readings[rows], said, near[rows], step)
+        if not np.isfinite(wants).all():
+            crew = buoys[int(np.isfinite(wants).all(axis=1).argmin())]._crew
+            problem = f"strategy {crew.name!r} wanted a velocity that is not finite, in step {step}"
+            raise StrategyError(crew.source, problem, "guard divisions, roots and logarithms")
+        for n, (buoy, heard, want) in enumerate(zip(buoys, near, wants.tolist(), strict=True)):
+            buoy._heard, buoy.wanted = (said, heard), (want[0], want[1])
+            if buoy._adaptive:
+                buoy._adapt(1 if readings[n, _ON_TARGET] or said.contact(heard) else 0)
+            if buoy.under != "resume":  # it senses and remembers as under none
+                wants[n] = buoy.wanted = buoy._as_ordered(*readings[n, :2].tolist())
         return wants
-
-    def _make_up(self, me: Reading, want: list[float], said: Said, near: Near, step: int) -> list[float]:
-        """What it wants after all, under the order that it is under; it senses and remembers as under none."""
-        if not all(map(math.isfinite, want)):
-            problem = f"strategy {self._crew.name!r} wanted a velocity that is not finite, in step {step}"
-            raise StrategyError(self._crew.source, problem, "guard divisions, roots and logarithms")
-        if self._adaptive:
-            self._adapt(1 if me.on_target or said.contact(near) else 0)
-        vx, vy = self._as_ordered(me, *want)
-        self.wanted, self._heard = (vx, vy), (said, near)
-        return [vx, vy]
 
     def follow(self, step: int) -> None:
         """Obey the commands of the scenario up to a step; `decide` does so by itself.
@@ -308,14 +353,13 @@ class Buoy:
                 self.obey(command)
         self._followed = max(self._followed, step)
 
-    def _as_ordered(self, me: Reading, vx: float, vy: float) -> tuple[float, float]:
+    def _as_ordered(self, x: float, y: float) -> tuple[float, float]:
+        """What it wants under an order, where it is."""
         if self.under == "hold":
             return 0.0, 0.0
-        if self.under == "recall":
-            make = self._make
-            turn, change = math.radians(make.max_turn_rate or math.inf), make.max_acceleration or math.inf
-            away = self._home[0] - float(me.x), self._home[1] - float(me.y)
-            vx, vy = _homeward(*away, make.max_speed, change, turn, self._time_step)
+        make = self._make
+        turn, change = math.radians(make.max_turn_rate or math.inf), make.max_acceleration or math.inf
+        vx, vy = _homeward(self._home[0] - x, self._home[1] - y, make.max_speed, change, turn, self._time_step)
         return vx, vy
 
     def _check(self, reading: Reading, step: int) -> None:
@@ -325,6 +369,12 @@ class Buoy:
             raise MessageError("reading", problem, "say and decide nothing until the instrument is well")
         if not self._begun:
             self.begin(reading)
+
+    @staticmethod
+    def _check_together(buoys: Sequence["Buoy"], readings: Floats, step: int) -> None:
+        if not (np.isfinite(readings).all() and all(map(_BEGUN, buoys))):
+            for buoy, reading in zip(buoys, readings.tolist(), strict=True):
+                buoy._check(Reading(*reading), step)
 
     def _adapt(self, contact: int) -> None:
         """Let k follow the contact."""
@@ -348,12 +398,14 @@ class Buoy:
         return vx * scale, vy * scale
 
 
-def _of_one_mind(buoys: Sequence[Buoy]) -> list[list[int]]:
-    """Which of them decide together: all but those who were told to go by something else."""
+def _of_one_mind(buoys: Sequence[Buoy]) -> list[tuple[Any, Sequence[Buoy]]]:
+    """Which of them decide together, rows and buoys: all but those who were told to go by something else."""
     together: dict[int, list[int]] = {}
     for n, buoy in enumerate(buoys):
         together.setdefault(id(buoy._minds), []).append(n)
-    return list(together.values())
+    if len(together) == 1:
+        return [(slice(None), buoys)]  # whose rows need not be copied
+    return [(rows, [buoys[n] for n in rows]) for rows in together.values()]
 
 
 def _minds_of(crew: Crew, seed: int, run: int, buoys: list[Buoy]) -> Any:

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from shoal.buoy.rows import Floats
 from shoal.buoy.said import Near, Said
 from shoal.core.agents import as_records, width
 from shoal.core.messages import Own, Reading
@@ -34,6 +35,10 @@ class CompiledMinds:
         """Every field of the memory of one, in their order."""
         return tuple(self._numbers[place, : self._fields].tolist())
 
+    def memories(self, places: Sequence[int]) -> Floats:
+        """The memory of several, (n, M)."""
+        return self._numbers[places, : self._fields]
+
     def recall(self, place: int, numbers: tuple[float, ...]) -> None:
         """Let one remember these numbers, in the order of the fields."""
         self._numbers[place, : self._fields] = numbers
@@ -47,23 +52,20 @@ class CompiledMinds:
         self._selves[place, :8] = reading
         self._begin(place, self._selves, self._memory, self.crew.params, self._key)
 
-    def decide(
-        self, places: Sequence[int], readings: Sequence[Reading], said: Said, near: Near, step: int
-    ) -> list[list[float]]:
-        """The velocities that some of them want in a step [m/s].
+    def decide(self, places: Sequence[int], readings: Floats, said: Said, near: Near, step: int) -> Floats:
+        """The velocities that some of them want in a step, (n, 2) [m/s].
 
         Parameters
         ----------
-        places : n of them; readings : what their instruments say
+        places : n of them; readings : (n, 8) what their instruments say
         said, near : what is said, and (n, k, 2) by whom of their neighbors
         step : its number
         """
-        rows = np.array(places)
+        rows, wants = np.array(places), np.empty((len(places), 2))
         self._selves[rows, :8] = readings
         if self._tells:
-            first = len(said.reports)
+            first = len(said.numbers)
             said.tells[first : first + len(rows), : self._tells] = self._numbers[rows, : self._tells]
-        room = Room(self._sums, np.empty((len(rows), 2)))
+        room = Room(self._sums, wants)
         self._decide(rows, self._selves, said.inbox, near, self._memory, self.crew.params, (self._key, step), room)
-        wants: list[list[float]] = room.wants.tolist()
         return wants

@@ -4,7 +4,6 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.buoy.inbox import Inbox
-from shoal.core.messages import Report
 
 
 class Hearing:
@@ -25,13 +24,13 @@ class Hearing:
         before = self._reached.get(step)
         self._reached[step] = speakers if before is None else before | speakers
 
-    def held(self, inbox: Inbox, step: int) -> dict[int, Report]:
-        """The newest report that it has of each speaker, said at a step or at most `max_age` steps before it."""
-        found: dict[int, Report] = {}
+    def held(self, inbox: Inbox, step: int) -> dict[int, tuple[int, bytes]]:
+        """The newest that it has of each speaker, said at a step or at most `max_age` before it: when, and its row."""
+        found: dict[int, tuple[int, bytes]] = {}
         for then in range(max(0, step - self._max_age), step + 1):
             if then in self._reached:
                 reached = self._reached[then]
-                found |= {id: report for id, report in inbox.of(then).items() if reached[id]}
+                found |= {id: (then, row) for id, row in inbox.of(then).items() if reached[id]}
         return found
 
     def copy(self) -> "Hearing":

@@ -5,6 +5,9 @@ from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
+import numpy as np
+
+from shoal.buoy.rows import Floats
 from shoal.buoy.said import Near, Said
 from shoal.core.draws import START_STEP, split
 from shoal.core.messages import Briefing, Heard, Own, Reading, Report, Truth
@@ -83,6 +86,10 @@ class PlainMinds:
         """Every field of the memory of one, in their order."""
         return self._minds[place].numbers()
 
+    def memories(self, places: Sequence[int]) -> Floats:
+        """The memory of several, (n, M)."""
+        return np.array([self._minds[place].numbers() for place in places], float)
+
     def recall(self, place: int, numbers: tuple[float, ...]) -> None:
         """Let one remember these numbers, in the order of the fields."""
         self._minds[place].recall(numbers)
@@ -95,34 +102,38 @@ class PlainMinds:
         """Set the memory of one up."""
         self._minds[place].begin(self._own(place, reading, 0))
 
-    def decide(
-        self, places: Sequence[int], readings: Sequence[Reading], said: Said, near: Near, step: int
-    ) -> list[list[float]]:
-        """The velocities that some of them want in a step [m/s].
+    def decide(self, places: Sequence[int], readings: Floats, said: Said, near: Near, step: int) -> Floats:
+        """The velocities that some of them want in a step, (n, 2) [m/s].
 
         Parameters
         ----------
-        places : n of them; readings : what their instruments say
+        places : n of them; readings : (n, 8) what their instruments say
         said, near : what is said, and (n, k, 2) by whom of their neighbors
         step : its number
         """
-        wants = []
-        for place, reading, its in zip(places, readings, near, strict=True):
+        wants = np.empty((len(places), 2))
+        for n, (place, reading, its) in enumerate(zip(places, readings.tolist(), near, strict=True)):
             mind = self._minds[place]
             try:
-                found = mind.decide(self._own(place, reading, step), said.heard(its, mind.crew.ranked), step)
+                wants[n] = mind.decide(self._own(place, reading, step), said.heard(its, mind.crew.ranked), step)
             except (ZeroDivisionError, OverflowError):  # compiled code would go on with infinity
-                found = math.nan, math.nan
-            wants.append([*found])
+                wants[n] = math.nan
         return wants
 
-    def _own(self, place: int, reading: Reading, step: int) -> Own:
+    def _own(self, place: int, reading: Sequence[float], step: int) -> Own:
         """The agent as it knows itself: with plain numbers, wherever they come from."""
         me = self._selves[place]
-        x, y, vx, vy, drift_x, drift_y = map(float, (*reading[:4], *reading[5:7]))
-        on_target, aground, time = bool(reading.on_target), bool(reading.aground), step * me.time_step
+        x, y, vx, vy, on_target, drift_x, drift_y, aground = map(float, reading)
         return me._replace(
-            x=x, y=y, vx=vx, vy=vy, on_target=on_target, time=time, drift_x=drift_x, drift_y=drift_y, aground=aground
+            x=x,
+            y=y,
+            vx=vx,
+            vy=vy,
+            on_target=bool(on_target),
+            time=step * me.time_step,
+            drift_x=drift_x,
+            drift_y=drift_y,
+            aground=bool(aground),
         )
 
 

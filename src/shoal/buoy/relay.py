@@ -6,13 +6,14 @@ buoy that passes it on (4), the report as its author sent it (core/wire.py), and
 
 import struct
 import zlib
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from typing import NamedTuple
 
 from shoal.buoy.inbox import Inbox
 from shoal.core.errors import MessageError
 
 _KIND = 0xF1  # no version of a report
+_MARK = bytes([_KIND])
 _HEAD = struct.Struct("<BBI")
 _CHECK = struct.Struct("<I")
 MOST = 255  # hops that the format can say
@@ -38,7 +39,7 @@ class Relayed(NamedTuple):
         ------
         MessageError : a relayed one that is damaged, or of no hops that can be
         """
-        if data[:1] != bytes([_KIND]):
+        if data[:1] != _MARK:
             return cls(1, -1, data)
         body = data[: -_CHECK.size]
         if len(data) < _HEAD.size + _CHECK.size or data[-_CHECK.size :] != _CHECK.pack(zlib.crc32(body)):
@@ -64,27 +65,42 @@ class Relay:
         self._fewest: dict[int, dict[int, int]] = {}
         self._waiting: list[bytes] = []
 
-    def take(self, data: bytes, inbox: Inbox, now: int) -> None:
-        """Put what a mesh brought in an inbox, and pass it on if it is a report that may go further and did not so far.
+    def take(self, messages: Iterable[bytes], inbox: Inbox, now: int) -> None:
+        """Put what a mesh brought in an inbox, and pass on what are reports that may go further and did not so far.
 
         Parameters
         ----------
-        data : what arrived
+        messages : what arrived
         inbox : which says what is a report, and counts what is none
         now : number of the step that it arrived in
         """
-        try:
-            came = Relayed.of(data)
-        except MessageError:
-            inbox.counts["damaged"] += 1
+        reports: list[bytes] = []
+        hops: list[int] = []
+        for data in messages:
+            if data[:1] != _MARK:
+                reports.append(data)
+                hops.append(1)
+                continue
+            try:
+                came = Relayed.of(data)
+            except MessageError:
+                inbox.counts["damaged"] += 1
+                continue
+            reports.append(came.report)
+            hops.append(came.hops)
+        words = inbox.put(reports, now)
+        if self._hops > 1:
+            for report, over, word in zip(reports, hops, words, strict=True):
+                if word in ("new", "duplicate") and over < self._hops:
+                    self._pass_on(report, over, *inbox.source(report))
+
+    def _pass_on(self, report: bytes, hops: int, id: int, step: int) -> None:
+        if id in self._ids:
             return
-        report = inbox.put(came.report, now)
-        if report is None or came.hops >= self._hops or report.id in self._ids:
-            return
-        known = self._fewest.setdefault(inbox.step_of(report), {})
-        if came.hops < known.get(report.id, MOST + 1):
-            known[report.id] = came.hops
-            self._waiting.append(Relayed(came.hops + 1, min(self._ids), came.report).to_bytes())
+        known = self._fewest.setdefault(step, {})
+        if hops < known.get(id, MOST + 1):
+            known[id] = hops
+            self._waiting.append(Relayed(hops + 1, min(self._ids), report).to_bytes())
 
     def waiting(self) -> list[bytes]:
         """What is to be published now, each once."""

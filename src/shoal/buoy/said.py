@@ -1,19 +1,20 @@
 """What was said, and who of the speakers are the k nearest: for all buoys of a process at once, or for one alone."""
 
-import struct
 from collections.abc import Mapping, Sequence
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from shoal.buoy.neighbors import link_nearest
+from shoal.buoy.rows import ID, ON_TARGET, TOLD, Floats, report_of, row_of, table
 from shoal.core.agents import as_records, width
 from shoal.core.messages import Report
 from shoal.strategies.one_agent import Inbox
 
-_ROW = struct.Struct("7d").pack
 Near = npt.NDArray[np.int64]
+_ALL = np.ones((0, 0), bool)
 
 
 @cache
@@ -22,38 +23,41 @@ def _kind(told: tuple[str, ...]) -> Any:
 
 
 class Said:
-    """m reports, as they came and as arrays: one of each speaker, or several of which each listener hears one.
+    """m reports as arrays: one of each speaker, or several of which each listener hears one.
 
     Parameters
     ----------
-    reports : in the order of ids
+    rows : of the reports, in the order of ids: see buoy/rows.py
     told : names of the fields that they tell
     listeners : n, how many may hear them
 
     Attributes
     ----------
-    reports : as given
+    numbers : (m, 7 + T) of the rows
     inbox : the same for compiled code
     tells : (m + n, fields) what they tell, a part of `inbox`; the rows behind are for what listeners tell themselves
     """
 
-    def __init__(self, reports: Sequence[Report], told: tuple[str, ...], listeners: int) -> None:
-        self.reports = reports
-        count = len(reports)
-        self.tells = np.zeros((count + listeners, width(told)))
-        if told and count:
-            self.tells[:count] = [each.told for each in reports]
-        rows = [_ROW(it.id, it.x, it.y, it.vx, it.vy, it.time, it.on_target) for it in reports]
-        numbers = np.frombuffer(b"".join(rows)).reshape(count, 7)  # quicker than of tuples
-        told_of = self.tells.view(_kind(told))[:, 0]
-        self.inbox = Inbox(numbers[:, 0].astype(int), numbers[:, 1:6].copy(), numbers[:, 6] > 0.0, told_of)
+    def __init__(self, rows: Sequence[bytes], told: tuple[str, ...], listeners: int) -> None:
+        self.numbers = numbers = table(rows, told)
+        self._told = told
+        self.tells = np.zeros((len(rows) + listeners, width(told)))
+        if told:
+            self.tells[: len(rows)] = numbers[:, TOLD:]
+        ids, on_target = numbers[:, ID].astype(int), numbers[:, ON_TARGET] > 0.0
+        self.inbox = Inbox(ids, numbers[:, :ID].copy(), on_target, self.tells.view(_kind(told))[:, 0])
 
-    def nearest(self, ids: Any, x: Any, y: Any, most: Sequence[int], reaches: Any = None) -> Near:
+    @cached_property
+    def reports(self) -> list[Report]:
+        """The reports."""
+        return [report_of(row, self._told) for row in self.numbers.tolist()]
+
+    def nearest(self, ids: Any, readings: Floats, most: Sequence[int], reaches: Any = None) -> Near:
         """Whom each of n listeners hears: the k nearest of the others that it can hear, ties to the lower id.
 
         Parameters
         ----------
-        ids, x, y : (n,) who listens, and where [m]
+        ids, readings : (n,) who listens, and (n, 8) where
         most : k of each
         reaches : (n, m) which of the reports reached each, one of each speaker at most; None: all
 
@@ -62,28 +66,21 @@ class Said:
         (n, k, 2) rows of the reports, ascending, and how many of them are nearer; -1: no more
         """
         speakers, numbers = self.inbox.id, self.inbox.numbers
-        with np.errstate(over="ignore"):  # who is infinitely far away is the farthest
-            dx = x[:, None] - numbers[:, 0]
-            dy = y[:, None] - numbers[:, 1]
-            square = dx * dx + dy * dy
-        square[ids[:, None] == speakers] = np.nan  # sorted behind all others
-        if reaches is not None:
-            square[~reaches] = np.nan
-        counts = list(map(min, (square == square).sum(axis=1).tolist(), most))
-        order = square.argsort(axis=1, kind="stable")[:, : max(counts, default=0)]
-        for row, count in zip(order, counts, strict=True):
-            row[count:] = speakers.size  # nobody's, behind all others
-        near = np.empty((*order.shape, 2), np.int64)
-        near[:, :, 1] = ranks = order.argsort(axis=1)
-        near[:, :, 0] = rows = order[np.arange(len(order))[:, None], ranks]
-        if min(counts, default=0) < order.shape[1]:
-            near[rows == speakers.size] = -1
+        near = np.full((len(ids), min(max(most, default=0), len(speakers)), 2), -1)
+        reached = _ALL if reaches is None else np.ascontiguousarray(reaches)
+        with np.errstate(over="ignore"):  # who is infinitely far away is the farthest, in plain Python, too
+            link_nearest(near, ids, readings, speakers, numbers, np.array(most, int), reached)
         return near
 
     def heard(self, near: Near, ranked: bool = False) -> list[Report]:
         """The reports of the neighbors (k, 2) of one listener, with their ranks if so asked."""
         rows = [(row, rank) for row, rank in near.tolist() if row >= 0]
         return [self.reports[row]._replace(rank=rank) if ranked else self.reports[row] for row, rank in rows]
+
+    def speakers(self, near: Near) -> list[int]:
+        """The ids of the neighbors (k, 2) of one listener."""
+        ids: list[int] = self.inbox.id[near[near[:, 0] >= 0, 0]].tolist()
+        return ids
 
     def contact(self, near: Near) -> bool:
         """Whether any of the neighbors (k, 2) of one listener is on target."""
@@ -104,4 +101,4 @@ def nearest_alone(newest: Mapping[int, Report], told: tuple[str, ...], me: Repor
     ids = sorted(ranks)
     near = np.empty((1, len(ids), 2), np.int64)
     near[0, :, 0], near[0, :, 1] = np.arange(len(ids)), [ranks[id] for id in ids]
-    return Said([newest[id] for id in ids], told, 1), near
+    return Said([row_of(newest[id]) for id in ids], told, 1), near

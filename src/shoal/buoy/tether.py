@@ -140,6 +140,11 @@ def _tick(step: int, turn: int, count: int, agents: int, limited: int, rest: mem
     )
 
 
+def numbers_of(tick: Tick) -> npt.NDArray[np.float64]:
+    """What the instruments of a tick say as numbers, (n, 8), in the order of a Reading's fields."""
+    return np.array([tick.readings[name] for name in Reading._fields], float).T.copy()
+
+
 def readings_of(tick: Tick) -> list[tuple[int, Reading]]:
     """What the instruments of a tick say, as buoys take it, each with its buoy."""
     return [(id, Reading(*rest)) for id, *rest in tick.readings.tolist()]

@@ -1,60 +1,34 @@
 """A process of buoys in virtual time: what `shoal.buoy.paced` does by a clock, with neither clock nor tether."""
 
 import math
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from shoal.buoy import inbox
 from shoal.buoy.aboard import Aboard
 from shoal.buoy.paced import HALF
+from shoal.buoy.rows import Floats
 from shoal.buoy.said import Near, Said
 from shoal.buoy.tether import Commands, Tick
-from shoal.core.messages import Reading, Report
 from shoal.run.fleet.virtual_mesh import Parcel
 from shoal.scenario.schema import Scenario
-
-_MANY = 4_000  # reports that are remembered as they were read
-
-
-@contextmanager
-def reading_once() -> Iterator[None]:
-    """Until the block ends, bytes that reach several inboxes are read once: they say the same to all of them."""
-    known: dict[bytes, Report] = {}
-
-    class Once:
-        @staticmethod
-        def from_bytes(data: bytes, told: tuple[str, ...]) -> Report:
-            report = known.get(data)
-            if report is None:
-                if len(known) > _MANY:
-                    known.clear()
-                report = known[data] = Report.from_bytes(data, told)
-            return report
-
-    reader: Any = inbox
-    reader.Report = Once
-    try:
-        yield
-    finally:
-        reader.Report = Report
 
 
 class Thought(NamedTuple):
     """What n buoys decided on in a step, and what came of it.
 
-    ids, readings : which, and what they measured; said, near : what was said, and (n, k, 2) by whom of their neighbors
-    wants : velocities [m/s]; before, after : their memories
+    ids, readings : which, and (n, 8) what they measured
+    said, near : what was said, and (n, k, 2) by whom of their neighbors
+    wants : (n, 2) velocities [m/s]; before, after : (n, M) their memories
     """
 
     ids: list[int]
-    readings: list[Reading]
+    readings: Floats
     said: Said
     near: Near
     step: int
-    wants: list[list[float]]
-    before: list[tuple[float, ...]]
-    after: list[tuple[float, ...]]
+    wants: Floats
+    before: Floats
+    after: Floats
 
 
 class WatchedMinds:
@@ -68,19 +42,18 @@ class WatchedMinds:
     def __init__(self, minds: Any, ids: tuple[int, ...], thoughts: list[Thought]) -> None:
         self._minds, self._ids, self._thoughts = minds, ids, thoughts
         self.told, self.begin, self.numbers, self.recall = minds.told, minds.begin, minds.numbers, minds.recall
+        self.memories = minds.memories
 
-    def decide(
-        self, places: list[int], readings: list[Reading], said: Said, near: Near, step: int
-    ) -> list[list[float]]:
+    def decide(self, places: list[int], readings: Floats, said: Said, near: Near, step: int) -> Floats:
         """As the minds do.
 
         Parameters
         ----------
         places, readings, said, near, step : as theirs
         """
-        before = list(map(self.numbers, places))
-        wants: list[list[float]] = self._minds.decide(places, readings, said, near, step)
-        ids, after = [self._ids[place] for place in places], list(map(self.numbers, places))
+        before = self.memories(places)
+        wants: Floats = self._minds.decide(places, readings, said, near, step)
+        ids, after = [self._ids[place] for place in places], self.memories(places)
         self._thoughts.append(Thought(ids, readings, said, near, step, wants, before, after))
         return wants
 

@@ -62,23 +62,19 @@ class VirtualMesh:
         counts["cut"] += int(cut.sum())
         counts["dropped"] += int(dropped.sum())
         counts["nobody"] += int(nobody.sum())
+        damaged = {(m, p): self._damaged(said[m]) for m, p in np.argwhere(fates.damaged & arrives).tolist()}
         for p, way in enumerate(self._under_way):
             theirs = np.flatnonzero(arrives[:, p])
             at = (now + fates.delays[theirs, p]).tolist()
-            way.extend(zip(at, itertools.count(self._number + 1), map(said.__getitem__, theirs.tolist())))
+            parcels = [damaged.get((m, p)) or said[m] for m in theirs.tolist()]
+            way.extend(zip(at, itertools.count(self._number + 1), parcels))
             self._number += len(at)
-        for m, p in np.argwhere(fates.damaged & arrives).tolist():
-            self._damage(p, said[m])
         for m, p in np.argwhere((fates.copies >= 0.0) & arrives).tolist():
             self._more(p, now + float(fates.copies[m, p]), said[m])
         self._kept.extend(said[:: max(1, len(said) // 4)])
 
-    def _damage(self, listener: int, parcel: Parcel) -> None:
-        """Damage a parcel that was just published on the way to a listener."""
-        way = self._under_way[listener]
-        place = next(n for n in range(len(way) - 1, -1, -1) if way[n][2] is parcel)
-        damaged = Parcel(self._adversary.damage(parcel.data), None, word="damaged")
-        way[place] = (*way[place][:2], damaged)
+    def _damaged(self, parcel: Parcel) -> Parcel:
+        return Parcel(self._adversary.damage(parcel.data), None, word="damaged")
 
     def disturb(self, now: int, time_step: float, told: tuple[float, ...]) -> None:
         """Let come what nobody says at this time: noise, and what was said long ago."""
