@@ -55,7 +55,7 @@ def compile_names(names: Sequence[str]) -> None:
     """Compile `set_out` and phases of these names, as the process that was started."""
     from numba import types
 
-    from shoal.engine import nature, phases, rollout
+    from shoal.engine import many, nature, phases, rollout
 
     parent = os.getppid()
     try:
@@ -64,7 +64,7 @@ def compile_names(names: Sequence[str]) -> None:
         for name in names:
             if os.getppid() != parent:
                 return  # nobody is waiting any more
-            phase: Phase = getattr(phases, name, None) or getattr(nature, name)
+            phase: Phase = next(getattr(each, name) for each in (phases, nature, many) if hasattr(each, name))
             phase.address()
     finally:
         (cache_folder() / _BUSY).unlink(missing_ok=True)

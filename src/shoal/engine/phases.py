@@ -15,6 +15,7 @@ from shoal.core.draws import TARGET_STREAM, split
 from shoal.core.plugin_errors import plugin_errors
 from shoal.engine.ahead import compile_ahead
 from shoal.engine.frames import keep_frame, keep_links
+from shoal.engine.many import link_many, look_at_many, settle_many
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
 from shoal.engine.nature import disturb_all, drift_targets, hide, launch_agent, receive, sail_all, stop_target
 from shoal.engine.stage import (
@@ -313,14 +314,15 @@ def addresses(world: World, frames: bool = False, collecting: bool = False) -> A
     PluginError : what an installed package counts or moves cannot be compiled
     """
     at_sea = world.flowing or world.coastal
+    many = world.listed > 0
     needed = [
         (sense_all, True),
         (disturb_all, world.disturbed),
         (record_frame, frames),
-        (link, True),
+        (link_many if many else link, True),
         (hide, world.coastal),
         (receive, collecting),
-        (settle, True),
+        (settle_many if many else settle, True),
         (record_links, frames),
         (move_agents, True),
         (sail_all, at_sea),
@@ -329,7 +331,7 @@ def addresses(world: World, frames: bool = False, collecting: bool = False) -> A
         (move_targets, True),
         (stop_target, world.coastal),
         (come_to_rest, True),
-        (look_at_links, frames),
+        (look_at_many if many else look_at_links, frames),
         (launch_agent, world.coastal),
     ]
     compile_ahead([each for each, wanted in needed if wanted])

@@ -5,7 +5,8 @@ import numpy as np
 from shoal.compiler.kernel import kernel
 from shoal.metrics.contract import Measurement, Metric, Sum
 from shoal.metrics.shares import share
-from shoal.world.neighbors import linked
+from shoal.world.lists import count_of, heard_of
+from shoal.world.neighbors import linked, within
 
 EVERY = 500  # steps between two looks at the graph
 
@@ -20,12 +21,12 @@ def tally_graph(tally, step, world, swarm, targets, scratch):
     if world.sequential or step.number % EVERY != 0:
         return
     agents, alive, links, part = world.agents, swarm.alive, scratch.links, scratch.leader
+    heard = np.empty(agents, np.int64)
     for i in range(agents):
         part[i] = i
     for i in range(agents):
-        for j in range(agents):
-            if linked(links, j, i) and alive[j] > 0.0:
-                _join(part, i, j)
+        for n in range(_hears(links, i, alive, heard, agents)):
+            _join(part, i, heard[n])
     components = 0
     active = 0
     for i in range(agents):
@@ -33,22 +34,38 @@ def tally_graph(tally, step, world, swarm, targets, scratch):
         components += there and part[i] == i
         active += there
     total = 0.0
-    listened = np.empty(agents, np.int64)
+    others = np.empty(agents, np.int64)
+    among = np.full(agents, -1)  # whom i hears
     for i in range(agents):
-        heard = 0
-        for j in range(agents):
-            if linked(links, j, i) and alive[j] > 0.0:
-                listened[heard] = j
-                heard += 1
-        linked_pairs = 0
-        for a in range(heard):
-            for b in range(a):
-                one, other = listened[a], listened[b]
-                linked_pairs += linked(links, one, other) or linked(links, other, one)
-        total += 2.0 * linked_pairs / (heard * (heard - 1)) if heard > 1 else 0.0
+        count = _hears(links, i, alive, heard, agents)
+        for n in range(count):
+            among[heard[n]] = i
+        ends = 0  # a pair that hears each other is found twice
+        for n in range(count):
+            one = heard[n]
+            for m in range(_hears(links, one, alive, others, agents)):
+                other = others[m]
+                if among[other] == i:
+                    ends += 1 if linked(links, one, other) else 2
+        total += ends / (count * (count - 1)) if count > 1 else 0.0
     tally.graphs[step.batch] += 1.0
     tally.components[step.batch] += components
     tally.clustering[step.batch] += total / max(active, 1)
+
+
+@kernel
+def _hears(links, i, alive, heard, agents):
+    """Write the present agents that i hears into `heard`; return how many."""
+    count = 0
+    if links.silent.size > 0:
+        for slot in range(count_of(links.lists, i)):
+            heard[count] = heard_of(links.lists, i, slot)
+            count += 1 if alive[heard[count]] > 0.0 else 0
+        return count
+    for j in range(agents):
+        heard[count] = j
+        count += 1 if within(links, j, i) and alive[j] > 0.0 else 0
+    return count
 
 
 @kernel
