@@ -37,7 +37,7 @@ def sum_listed_influence(arrived, listeners, links, params, agents, sums):
         longest = 0
         for lane in range(LANES):
             contract.clear(block, lane, params)
-            longest = max(longest, lists.count[number, lane])
+            longest = max(longest, lists.heard[number, lane])
         first = number * LANES
         for slot in range(longest):
             for lane in range(LANES):
@@ -45,11 +45,9 @@ def sum_listed_influence(arrived, listeners, links, params, agents, sums):
                 i, j = cells.order[p], cells.order[q]
                 me = listener_at(listeners, i, cells.own_x[p], cells.own_y[p])
                 rank = contract.rank_of(lists.rank[number], slot, lane, params)
-                other = Report(
-                    j, cells.x[q], cells.y[q], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank
-                )
+                other = Report(j, cells.x[q], cells.y[q], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
                 pushed = contract.influence(me, other, params)
-                contract.add(block, lane, pushed, slot < lists.count[number, lane])
+                contract.add(block, lane, pushed, slot < lists.heard[number, lane])
         for lane in range(min(LANES, agents - first)):
             i = cells.order[first + lane]
             for each in range(block.shape[0]):
@@ -75,16 +73,13 @@ def choose_listed_leaders(arrived, listeners, links, params, agents, leader, low
         i = cells.order[p]
         best = np.inf
         me = listener_at(listeners, i, cells.own_x[p], cells.own_y[p])
-        for slot in range(lists.count[number, lane]):
+        for slot in range(lists.heard[number, lane]):
             q = lists.slots[number, slot, lane]
             if lists.leads[q] != 0:
                 j = cells.order[q]
                 rank = contract.rank_of(lists.rank[number], slot, lane, params)
-                other = Report(
-                    j, cells.x[q], cells.y[q], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank
-                )
+                other = Report(j, cells.x[q], cells.y[q], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
                 priority = contract.priority(me, other, params)
                 if priority < best:
                     best = priority
                     leader[i] = j
-

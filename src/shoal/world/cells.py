@@ -13,6 +13,7 @@ from shoal.core.agents import Floats, aligned_zeros
 
 CELLS_PER_AGENT = 4  # at most
 _WIDE, _HIGH = 0.25, 0.8  # of a cell, in reaches: rows cost more than what is looked at in vain
+_SLACK = 1e-9  # of a cell: rounding of its edges
 _SAMPLE = 64  # agents whose reach decides how large cells are
 
 
@@ -114,6 +115,19 @@ def column_of(grid, x):
 def row_of(grid, y):
     """The row of a place, the nearest one outside the grid."""
     return _clipped((y - grid[1]) * grid[3], grid[5])
+
+
+@kernel
+def span(cells, x, y, radius, row):
+    """Where in cells.order those of a row begin and end that may be within a radius of a place."""
+    grid = cells.grid
+    columns, high = int(grid[4]), 1.0 / grid[3]
+    under = grid[1] + row * high - y if row > 0 else -np.inf
+    over = y - (grid[1] + (row + 1) * high) if row < int(grid[5]) - 1 else -np.inf
+    away = max(max(under, over) - _SLACK * high, 0.0)
+    half = math.sqrt(max(radius * radius - away * away, 0.0))
+    first, last = column_of(grid, x - half), column_of(grid, x + half)
+    return int(cells.begins[row * columns + first]), int(cells.begins[row * columns + last + 1])
 
 
 @kernel

@@ -12,7 +12,7 @@ import numpy as np
 from shoal.compiler.kernel import kernel
 from shoal.core.agents import aligned_zeros
 from shoal.core.draws import split, uniform
-from shoal.world.cells import Cells, column_of, new_cells, put_into_cells, row_of
+from shoal.world.cells import Cells, new_cells, put_into_cells, row_of, span
 
 VECTOR = 32  # a multiple of what a processor compares at once
 LANES = 16  # agents whose lists lie together, and who listen together
@@ -26,7 +26,7 @@ class Lists(NamedTuple):
 
     cells : who is where
     slots : (P / LANES, K, LANES) whom each hears, as places in cells.order, ascending by index; itself in those unused
-    count : (P / LANES, LANES) how many each hears
+    heard : (P / LANES, LANES) how many each hears
     rank : as slots: how many of those heard are nearer; no blocks where the strategy does not ask
     leads : (P,) 1 where an agent may lead, as places in cells.order
     found, distance : (R,) scratch of one search: places in cells.order, squares of distances [m^2]
@@ -35,7 +35,7 @@ class Lists(NamedTuple):
 
     cells: Cells
     slots: np.ndarray
-    count: np.ndarray
+    heard: np.ndarray
     rank: np.ndarray
     leads: np.ndarray
     found: np.ndarray
@@ -135,19 +135,20 @@ def _look_around(lists, p, k, limit, reception, swarm):
     radius = math.sqrt(limit) * (1.0 + _SLACK)
     count = 0
     row, last = row_of(grid, y - radius), row_of(grid, y + radius)
-    next_begin, next_end = _span(cells, x, y, radius, row)
+    next_begin, next_end = span(cells, x, y, radius, row)
     while row <= last:
         begin, end = next_begin, next_end
         row += 1
         if row <= last:
-            next_begin, next_end = _span(cells, x, y, radius, row)  # now: a processor works on both at once
+            next_begin, next_end = span(cells, x, y, radius, row)  # now: a processor works on both at once
         while begin < end:
             if count == found.size:
                 count = _hear(lists, p, count, reception, swarm)
                 count = _keep_nearest(lists, count, k)
-                limit = 0.0
-                for n in range(count):
-                    limit = max(limit, distance[n])
+                if count == k:
+                    limit = 0.0
+                    for n in range(count):
+                        limit = max(limit, distance[n])
             stop = min(end, begin + found.size - count)
             for q in range(begin, stop):
                 dx = x - cells.x[q & _INDEX]
@@ -158,19 +159,6 @@ def _look_around(lists, p, k, limit, reception, swarm):
                 count += 1 if square <= limit else 0
             begin = stop
     return _hear(lists, p, count, reception, swarm)
-
-
-@kernel
-def _span(cells, x, y, radius, row):
-    """Where in cells.order those of a row begin and end that may be within a radius of a place."""
-    grid = cells.grid
-    columns, high = int(grid[4]), 1.0 / grid[3]
-    under = grid[1] + row * high - y if row > 0 else -np.inf
-    over = y - (grid[1] + (row + 1) * high) if row < int(grid[5]) - 1 else -np.inf
-    away = max(max(under, over) - _SLACK * high, 0.0)
-    half = math.sqrt(max(radius * radius - away * away, 0.0))
-    first, last = column_of(grid, x - half), column_of(grid, x + half)
-    return int(cells.begins[row * columns + first]), int(cells.begins[row * columns + last + 1])
 
 
 _INDEX = (1 << 32) - 1  # tells the compiler that an index is not negative
@@ -194,7 +182,7 @@ def _hear(lists, p, count, reception, swarm):
 
 @kernel
 def _keep_nearest(lists, count, k):
-    """Keep the k nearest of `count` that were found, of those equally far the lower index; return how many there are."""
+    """Keep the k nearest of `count` found, of those equally far the lower index; return how many there are."""
     found, distance, order = lists.found, lists.distance, lists.cells.order
     while count > k:
         farthest, farthest_odd = distance[0], distance[count - 1]
@@ -253,7 +241,7 @@ def _write(lists, p, count):
         slots[before, lane] = found[n]
     for n in range(count, slots.shape[0]):
         slots[n, lane] = p
-    lists.count[block, lane] = count
+    lists.heard[block, lane] = count
     if lists.rank.shape[0] > 0:
         _rank(lists, block, lane, count)
 
@@ -280,7 +268,7 @@ def heard_of(lists, i, slot):
 def count_of(lists, i):
     """How many agent i hears."""
     p = lists.cells.place[i]
-    return lists.count[p // LANES, p % LANES]
+    return lists.heard[p // LANES, p % LANES]
 
 
 @kernel
@@ -288,14 +276,14 @@ def is_listed(lists, j, i):
     """Whether agent i hears j: a search by halves."""
     p = lists.cells.place[i]
     order, block, lane = lists.cells.order, lists.slots[p // LANES], p % LANES
-    low, high = 0, lists.count[p // LANES, lane]
+    low, high = 0, lists.heard[p // LANES, lane]
     while low < high:
         middle = (low + high) // 2
         if order[block[middle, lane]] < j:
             low = middle + 1
         else:
             high = middle
-    return low < lists.count[p // LANES, lane] and order[block[low, lane]] == j
+    return low < lists.heard[p // LANES, lane] and order[block[low, lane]] == j
 
 
 @kernel
