@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from shoal.compiler.kernel import compile_for
 from shoal.compiler.late import compiles
 from shoal.compiler.placed import Placed
 from shoal.core.agents import NEVER, KeptMemories, ListedMemories, Memories, as_records
@@ -108,7 +109,7 @@ class Simulation:
         self._scratch = self._new_scratch()
         self._begin, self._rollout = self.crew.compiled(begin_run, rollout)
         self._which = Run(np.uint64(scenario.seed), run, scenario.steps)
-        self._phases = addresses(self.world, collecting=network.collects)
+        self._phases = addresses(self.world, collecting=network.collects, first=self._compile)
         self._placed = Placed(self._stage(self._new_frames(0)))
         self._looking = Placed(self._stage(self._new_frames(1)))
         starts = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
@@ -171,7 +172,7 @@ class Simulation:
         Its links are those of the coming step. In the sequential order, in which agents hear what others have just
         done, they are those of agents that all decide first.
         """
-        self._keep_frames()
+        self._keep_frames(looking=True)
         self._looking = self._in_place(self._looking)
         _look(self._looking.address, self.number)
         seen = Frames(*(array.copy() for array in self._looking.stage.frames))
@@ -238,10 +239,17 @@ class Simulation:
         """
         return np.asarray(self._scratch.hops[:, : self.scenario.agents] > 0)
 
-    def _keep_frames(self) -> None:
+    def _compile(self) -> None:
+        """Compile what the strategy is part of, or load it from the cache."""
+        with plugin_errors(), self.crew.naming_errors():
+            compile_for(self._begin, 0, self._memories, self.crew.params)
+            compile_for(self._rollout, 0, self._memories, self.crew.params, 0, 0, 0, 0)
+
+    def _keep_frames(self, looking: bool = False) -> None:
         """Compile the phases that frames need, which runs without frames do without."""
-        if not self._phases.record_frame:
-            self._phases = addresses(self.world, frames=True, collecting=self.scenario.network.collects)
+        if not (self._phases.look_at_links if looking else self._phases.record_frame):
+            looking = looking or bool(self._phases.look_at_links)
+            self._phases = addresses(self.world, True, looking, self.scenario.network.collects)
 
     def _settle(self) -> None:
         """Make the state true after a change; where everybody is always there, the engine leaves a lot out."""
