@@ -131,7 +131,8 @@ def _layout() -> Any:
         if isinstance(whole, ir.ArrayType):  # of a NamedTuple whose fields are all alike
             size = whole.element.get_abi_size(data)
             return [offsets(each, start + size * place) for place, each in enumerate(kind)]
-        return [offsets(each, start + whole.get_element_offset(data, place)) for place, each in enumerate(kind)]
+        laid = whole._get_ll_global_value_type(data)  # once: `whole.get_element_offset` parses it for every field
+        return [offsets(each, start + data.get_element_offset(laid, place)) for place, each in enumerate(kind)]
 
     return offsets(_type(), 0)
 
