@@ -20,13 +20,16 @@ def load_compiler() -> None:
     It asks for scipy's version, and reads settings by yaml if there is a file of them. It is done to our own process
     only, never by the library.
     """
+    from shoal.run.compiling import interrupts_wait
+
     if "numba" in sys.modules:
         return
     unneeded = ["scipy", "yaml"][: 1 if Path(".numba_config.yaml").exists() else 2]
     hidden = [each for each in unneeded if each not in sys.modules]
     sys.modules.update(dict.fromkeys(hidden))  # type: ignore[arg-type]  # None is Python's way to say: not there
     try:
-        import numba  # noqa: F401
+        with interrupts_wait():
+            import numba  # noqa: F401
     finally:
         for each in hidden:
             del sys.modules[each]
@@ -34,8 +37,7 @@ def load_compiler() -> None:
 
 def tell_of_compiling(scenario: "Scenario", whose: str = "") -> None:
     """Say so if the first step will compile the engine for this strategy, or for its buoys; and how far it is."""
-    from shoal.engine.ahead import cores
-    from shoal.run.compiling import engine_is_compiled, needs_compiling, why_not_kept
+    from shoal.run.compiling import cores, engine_is_compiled, needs_compiling, why_not_kept
     from shoal.scenario.crew import crew_of
 
     if not needs_compiling(scenario, whose):
@@ -52,7 +54,7 @@ def tell_of_compiling(scenario: "Scenario", whose: str = "") -> None:
 
 def _tell_how_far() -> None:
     """Say it from time to time, while it is under way."""
-    from shoal.engine.ahead import how_far
+    from shoal.run.compiling import how_far
 
     time.sleep(SECONDS_BETWEEN_LINES)
     while parts := how_far():

@@ -3,7 +3,10 @@
 from contextlib import suppress
 from pathlib import Path
 
+from shoal.compiler.interrupts import interrupts_wait as interrupts_wait
 from shoal.compiler.kernel import cache_folder, why_uncached
+from shoal.engine.ahead import cores as cores
+from shoal.engine.ahead import how_far as how_far
 from shoal.scenario.crew import Crew, crew_of
 from shoal.scenario.schema import Scenario
 
