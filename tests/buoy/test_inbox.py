@@ -130,13 +130,13 @@ def test_what_was_heard_by_a_clock_that_was_ahead_is_forgotten_when_it_is_set_ba
 
 def test_what_others_say_under_a_number_of_ours_is_counted():
     mine, own = inbox(), report(3, 7).to_bytes()
-    mine.put(report(3, 7, x=2.0).to_bytes(), 7)  # before it spoke itself, it may be of its life before
+    mine.put([report(3, 7, x=2.0).to_bytes()], 7)  # before it spoke itself, it may be of its life before
     mine.spoke(3, 7, own)
     for data in (own, own, report(3, 6).to_bytes(), report(2, 7).to_bytes()):
-        mine.put(data, 7)
+        mine.put([data], 7)
     assert mine.foreign == 0
-    mine.put(report(3, 7, x=2.0).to_bytes(), 7)
+    mine.put([report(3, 7, x=2.0).to_bytes()], 7)
     assert mine.foreign == 1
     mine.forget(30)
-    mine.put(report(3, 7, x=3.0).to_bytes(), 30)
+    mine.put([report(3, 7, x=3.0).to_bytes()], 30)
     assert mine.foreign == 1

@@ -103,7 +103,10 @@ def test_an_interrupt_that_an_import_made_another_error_of(monkeypatch, capsys):
 
 def test_other_errors_stay_what_they_are(monkeypatch):
     def fail(*_, **__):
-        raise ZeroDivisionError from ValueError()
+        error = ZeroDivisionError()
+        error.__cause__ = ValueError()
+        error.__cause__.__cause__ = error
+        raise error
 
     monkeypatch.setattr(main, "app", fail)
     with pytest.raises(ZeroDivisionError):

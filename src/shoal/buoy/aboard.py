@@ -92,7 +92,7 @@ class Aboard:
         ids = tick.readings["id"].tolist()
         here = [self.buoys[id] for id in ids]
         said = write(Buoy.report_together(here, numbers_of(tick), tick.step), self._told)
-        for id, message in zip(ids, said, strict=True):
+        for id, message in zip(ids, said, strict=False):
             self.inbox.spoke(id, tick.step, message)
         return said
 

@@ -28,10 +28,14 @@ def exit_code(interrupt: KeyboardInterrupt) -> int:
 
 def interrupt_behind(error: BaseException) -> KeyboardInterrupt | None:
     """The interrupt that an error was made of: Python before 3.12 does, in a class body of a module being imported."""
+    seen: list[BaseException] = []  # `raise error from error` makes a circle
     cause = error.__cause__
-    while cause is not None and not isinstance(cause, KeyboardInterrupt):
+    while cause is not None and not any(cause is each for each in seen):
+        if isinstance(cause, KeyboardInterrupt):
+            return cause
+        seen.append(cause)
         cause = cause.__cause__
-    return cause
+    return None
 
 
 def _end(number: int, _: FrameType | None) -> None:
