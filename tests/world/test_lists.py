@@ -23,7 +23,7 @@ def by_sorting(x, y, own_x, own_y, wanted, silent, range_square, true=None):
     return [sorted(order[i, : min(wanted[i], able[i])].tolist()) for i in range(agents)]
 
 
-WORLDS = int(os.environ.get("SHOAL_TEST_WORLDS", "60"))
+WORLDS = int(os.environ.get("SHOAL_TEST_WORLDS", "40"))
 
 
 class World:
