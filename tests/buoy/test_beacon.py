@@ -55,7 +55,7 @@ def test_it_is_known_when_it_is_gone():
     while not lookout.over:
         assert time.monotonic() < until
         heard.append(lookout.next(0.1))  # nothing, where it takes longer than that
-    assert [each for each in heard if each is not None][0] == b"last"
+    assert next(each for each in heard if each is not None) == b"last"
     lookout.close()
 
 
