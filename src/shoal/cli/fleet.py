@@ -3,7 +3,7 @@
 from contextlib import suppress
 from pathlib import Path
 from threading import Event
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
@@ -26,6 +26,7 @@ def fleet(
     neighbors: Annotated[str | None, Parameter(name=["--neighbors", "-k"])] = None,
     fast: MaybeInteger = None,
     agents: MaybeInteger = None,
+    density: Literal["keep"] | None = None,
     target_speed: str | None = None,
     steps: Annotated[MaybeSteps, Parameter(name=["--steps", "--for"])] = None,
     seed: MaybeInteger = None,
@@ -63,6 +64,8 @@ def fleet(
         Number of buoys of the fastest fleet; the slowest fleet gives or takes the difference.
     agents
         Number of buoys in all, in the scenario's shares of fleets.
+    density
+        keep: with --agents, the sides of the arena grow with the root of their number.
     target_speed
         Speed of the waypoint targets: m/s, or with a unit, such as "6 kn".
     steps
@@ -117,6 +120,7 @@ def fleet(
 
     changes: dict[str, Any] = {
         "agents": agents,
+        "density": density,
         "fast": fast,
         "strategy": strategy,
         "neighbors": neighbors,

@@ -96,12 +96,18 @@ def _leaves(value: Any, name: str) -> Any:
     if isinstance(value, np.ndarray):
         layout = "C" if value.flags.c_contiguous else "F" if value.flags.f_contiguous else "A"
         flags = "" if value.flags.aligned and value.flags.writeable else " (read-only or unaligned)"
-        yield name, f"{value.dtype}[{', '.join(':' * value.ndim)}] in {layout} order{flags}"
+        yield name, f"{_word(value.dtype)}[{', '.join(':' * value.ndim)}] in {layout} order{flags}"
     elif isinstance(value, tuple):
         for field, each in zip(value._fields, value, strict=True):  # type: ignore[attr-defined]
             yield from _leaves(each, f"{name}.{field}")
     else:
-        yield name, np.asarray(value).dtype.name
+        yield name, _word(np.asarray(value).dtype)
+
+
+@cache
+def _word(dtype: Any) -> str:
+    """What a dtype is called; NumPy takes its time to say it."""
+    return str(dtype)
 
 
 def _put(value: Any, where: Any, room: Any) -> None:
@@ -131,7 +137,8 @@ def _layout() -> Any:
         if isinstance(whole, ir.ArrayType):  # of a NamedTuple whose fields are all alike
             size = whole.element.get_abi_size(data)
             return [offsets(each, start + size * place) for place, each in enumerate(kind)]
-        return [offsets(each, start + whole.get_element_offset(data, place)) for place, each in enumerate(kind)]
+        laid = whole._get_ll_global_value_type(data)  # once: `whole.get_element_offset` parses it for every field
+        return [offsets(each, start + data.get_element_offset(laid, place)) for place, each in enumerate(kind)]
 
     return offsets(_type(), 0)
 

@@ -12,7 +12,7 @@ from shoal.compiler.kernel import kernel
 from shoal.core.messages import Report
 from shoal.engine.listen import listener
 from shoal.strategies import contract
-from shoal.world.neighbors import linked
+from shoal.world.neighbors import within
 from shoal.world.radio import row
 
 
@@ -44,7 +44,7 @@ def choose_kept_leaders(kept, listeners, links, params, agents, leader, lowest):
         lowest[i] = np.inf
         me = listener(listeners, i)
         for j in range(agents):
-            if linked(links, j, i):
+            if within(links, j, i):
                 at = row_of(kept, j, i)
                 x, y, vx, vy, on_target = air.x[at, j], air.y[at, j], air.vx[at, j], air.vy[at, j], air.on_target[at, j]
                 time = air.heard[j, i] * kept.time_step
@@ -66,7 +66,7 @@ def sum_kept_influence(kept, listeners, links, params, agents, sums):
         heard[i] = 0
         me = listener(listeners, i)
         for j in range(agents):
-            if linked(links, j, i):
+            if within(links, j, i):
                 heard[i] += 1
                 if contract.has_influence(params):
                     at = row_of(kept, j, i)

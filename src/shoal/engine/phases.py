@@ -4,19 +4,24 @@ Every phase takes the address of the stage, the number of the step, the first ag
 the batch of the sums, and the key of the step's chance; it returns an integer.
 """
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
+from shoal.compiler.borrowed import lend
 from shoal.compiler.kernel import kernel
 from shoal.compiler.phase import enter, phase
 from shoal.compiler.placed import part
+from shoal.core.agents import Swarm
 from shoal.core.draws import TARGET_STREAM, split
 from shoal.core.plugin_errors import plugin_errors
-from shoal.engine.ahead import compile_ahead
+from shoal.engine.ahead import Part, compile_ahead, compile_all
 from shoal.engine.frames import keep_frame, keep_links
+from shoal.engine.many import link_many, look_at_many, settle_many
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
 from shoal.engine.nature import disturb_all, drift_targets, hide, launch_agent, receive, sail_all, stop_target
+from shoal.engine.rollout import SET_OUT
 from shoal.engine.stage import (
     FRAMES,
     NATURE,
@@ -31,8 +36,11 @@ from shoal.engine.stage import (
     TRACKS,
     WORLD,
     Addresses,
+    Frames,
+    Scratch,
 )
 from shoal.metrics.contract import Step
+from shoal.metrics.tally import Tally
 from shoal.world.arena import World
 from shoal.world.energy import consume
 from shoal.world.motion import (
@@ -43,11 +51,12 @@ from shoal.world.motion import (
     note_drift,
     slow_down,
 )
-from shoal.world.neighbors import count_heard, link_nearest, measure_distances, rank_heard, settle_ties
+from shoal.world.neighbors import Links, count_heard, link_nearest, measure_distances, rank_heard, settle_ties
 from shoal.world.orders import obey
 from shoal.world.position import age_errors, locate
 from shoal.world.presence import update_presence
 from shoal.world.radio import (
+    Radio,
     adapt_degree,
     arrival_key,
     deafen,
@@ -61,6 +70,8 @@ from shoal.world.radio import (
 from shoal.world.reception import collects
 from shoal.world.sensing import sense
 from shoal.world.targets.dispatch import advance_target
+
+lend(Swarm, Radio, Tally, Links, Scratch, Frames)
 
 SPOILED_AGENTS, SPOILED_TARGETS, SPOILED_DRIFT = 1, 2, 3  # what a run ends with whose numbers are not finite
 
@@ -299,28 +310,36 @@ def look_at_links(stage, number, first, frame, key):
     return 0
 
 
-def addresses(world: World, frames: bool = False, collecting: bool = False) -> Addresses:
+def addresses(
+    world: World,
+    frames: bool = False,
+    looking: bool = False,
+    collecting: bool = False,
+    first: Callable[[], object] | None = None,
+) -> Addresses:
     """Compile the phases that a run needs, or load them from the cache; the others are nowhere, at 0.
 
     Parameters
     ----------
     world : what there is in the run
-    frames : whether frames are kept, or looked at
+    frames : whether frames are kept; looking : whether links are, of a step that does not begin
     collecting : whether radios relay or keep reports
+    first : compiles what other processes cannot, while these begin with the phases
 
     Raises
     ------
     PluginError : what an installed package counts or moves cannot be compiled
     """
     at_sea = world.flowing or world.coastal
+    many = world.listed > 0
     needed = [
         (sense_all, True),
         (disturb_all, world.disturbed),
         (record_frame, frames),
-        (link, True),
+        (link_many if many else link, True),
         (hide, world.coastal),
         (receive, collecting),
-        (settle, True),
+        (settle_many if many else settle, True),
         (record_links, frames),
         (move_agents, True),
         (sail_all, at_sea),
@@ -329,10 +348,14 @@ def addresses(world: World, frames: bool = False, collecting: bool = False) -> A
         (move_targets, True),
         (stop_target, world.coastal),
         (come_to_rest, True),
-        (look_at_links, frames),
+        (look_at_many if many else look_at_links, looking),
         (launch_agent, world.coastal),
     ]
-    compile_ahead([each for each, wanted in needed if wanted])
+    parts: list[Part] = [SET_OUT, *(each for each, wanted in needed if wanted)]
+    compile_ahead(parts, soon=[record_frame, record_links])
+    if first:
+        first()
     with plugin_errors():
+        compile_all(parts)
         where: list[Any] = [each.address() if wanted else 0 for each, wanted in needed]
     return Addresses(*where)

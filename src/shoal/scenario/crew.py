@@ -10,7 +10,7 @@ from shoal.core.errors import ScenarioError
 from shoal.scenario.schema import Scenario
 from shoal.scenario.strategy_choice import StrategyChoice
 from shoal.strategies import Strategy
-from shoal.strategies.compiled import compiled_for
+from shoal.strategies.compiled import compiled_for, made_of
 from shoal.strategies.errors import strategy_errors
 from shoal.strategies.puppet import PUPPET
 from shoal.strategies.team import MOST, depth_of, team
@@ -37,8 +37,13 @@ class Crew:
 
     @cached_property
     def builtin(self) -> bool:
-        """Whether all of it comes with Shoal, so that compiled code can be cached."""
+        """Whether all of it comes with Shoal."""
         return all(each.builtin for each in self.strategies)
+
+    @cached_property
+    def made_of(self) -> str | None:
+        """What names its compiled code beside the strategies: empty if all are ours, None if it cannot be kept."""
+        return made_of(self.strategies)
 
     @property
     def sums(self) -> int:

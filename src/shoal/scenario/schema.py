@@ -350,7 +350,7 @@ class Scenario(Frozen):
     def _two_agents(self) -> Self:
         if not 2 <= self.agents <= MOST_AGENTS:
             raise ValueError(
-                f"the fleets have {self.agents} agents together; a swarm has 2 to {MOST_AGENTS}; change count"
+                f"the fleets have {self.agents} agents together; a swarm has 2 to {MOST_AGENTS:,}; change count"
             )
         return self
 

@@ -8,7 +8,8 @@ import numpy.typing as npt
 from shoal.compiler.kernel import kernel
 from shoal.core.agents import Floats, both, width
 from shoal.core.draws import split, uniform
-from shoal.world.neighbors import linked
+from shoal.world.lists import count_of, heard_of
+from shoal.world.neighbors import within
 
 _LOSS = 1 << 33  # a stream of keys that neither agents nor targets draw from
 
@@ -249,14 +250,18 @@ def adapt_degree(swarm, radio, links, reports, first, last, world):
     contact = links.off  # scratch by now
     for i in range(first, last):
         contact[i - first] = 1 if swarm.on_target[i] else 0
-    for j in range(world.agents):
+    for j in range(world.agents if links.silent.size == 0 else 0):
         if radio.max_age > 0:
             for i in range(last - first):
-                if linked(links, j, i):
+                if within(links, j, i):
                     contact[i] |= 1 if radio.on_target[row(radio, radio.heard[j, i]), j] else 0
         elif reports.on_target[j]:
             for i in range(last - first):
-                contact[i] |= 1 if linked(links, j, i) else 0
+                contact[i] |= 1 if within(links, j, i) else 0
+    if links.silent.size > 0:
+        for i in range(first, last):
+            for slot in range(count_of(links.lists, i)):
+                contact[i] |= 1 if reports.on_target[heard_of(links.lists, i, slot)] else 0
     weight = min(1.0, world.time_step / radio.patience)
     for i in range(first, last):
         if swarm.alive[i] > 0.0:
