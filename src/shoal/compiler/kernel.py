@@ -96,6 +96,15 @@ def compile_for(entry: Any, *arguments: Any) -> None:
         entry.compile(tuple(load().typeof(each) for each in arguments))
 
 
+def can_compile(function: Any, *kinds: Any) -> bool:
+    """Whether numba can compile a kernel for arguments of such types; for overloads."""
+    try:
+        function.dispatcher.get_call_template(kinds, {})
+    except load().core.errors.NumbaError:
+        return False
+    return True
+
+
 class Entry:
     """An entry kernel that is always called with arguments of the same kinds, as a part that is compiled by itself.
 

@@ -124,6 +124,10 @@ class Memories(NamedTuple):
     arrived: npt.NDArray[Any]
 
 
+class TurnMemories(Memories):
+    """Memories where agents decide one after the other: what is compiled for them goes by any number of listeners."""
+
+
 class KeptMemories(Memories):
     """Memories where reports are kept: what is compiled for them goes by a report of its own for each pair."""
 

@@ -7,11 +7,11 @@ compiles one of both, and nothing is asked while a run goes.
 
 from typing import Any
 
-from shoal.compiler.kernel import kernel, overload
-from shoal.core.agents import KeptMemories, ListedMemories, Memories
+from shoal.compiler.kernel import can_compile, kernel, overload
+from shoal.core.agents import KeptMemories, ListedMemories, Memories, TurnMemories
 from shoal.engine.kept import Kept, choose_kept_leaders, row_of, sum_kept_influence
 from shoal.engine.listed import Listed, choose_listed_leaders, sum_listed_influence
-from shoal.engine.listen import Arrived, choose_leaders, sum_influence
+from shoal.engine.listen import Arrived, InTurn, choose_leaders, sum_by_lanes, sum_influence
 from shoal.world.radio import row, said, spoken
 
 
@@ -29,6 +29,12 @@ def _arrived(memories, radio, swarm, number, time_step):
 
 
 @kernel
+def _in_turn(memories, radio, swarm, number, time_step):
+    arrived = _arrived(memories, radio, swarm, number, time_step)
+    return InTurn(arrived.said, arrived.told, arrived.at)
+
+
+@kernel
 def _listed(memories, radio, swarm, number, time_step):
     arrived = _arrived(memories, radio, swarm, number, time_step)
     return Listed(arrived.said, arrived.told, arrived.at)
@@ -39,9 +45,24 @@ def _kept(memories, radio, swarm, number, time_step):
     return Kept(radio, memories.arrived, spoken(radio, number), time_step)
 
 
-_ARRIVING: dict[Any, Any] = {Memories: _arrived, KeptMemories: _kept, ListedMemories: _listed}
-_SUMMING: dict[Any, Any] = {Arrived: sum_influence, Kept: sum_kept_influence, Listed: sum_listed_influence}
-_CHOOSING: dict[Any, Any] = {Arrived: choose_leaders, Kept: choose_kept_leaders, Listed: choose_listed_leaders}
+_ARRIVING: dict[Any, Any] = {
+    Memories: _arrived,
+    TurnMemories: _in_turn,
+    KeptMemories: _kept,
+    ListedMemories: _listed,
+}
+_SUMMING: dict[Any, Any] = {
+    Arrived: sum_influence,
+    InTurn: sum_influence,
+    Kept: sum_kept_influence,
+    Listed: sum_listed_influence,
+}
+_CHOOSING: dict[Any, Any] = {
+    Arrived: choose_leaders,
+    InTurn: choose_leaders,
+    Kept: choose_kept_leaders,
+    Listed: choose_listed_leaders,
+}
 
 
 def sum_up(arrived: Any, listeners: Any, links: Any, params: Any, agents: Any, sums: Any) -> None:
@@ -87,6 +108,8 @@ def _arriving(memories, radio, swarm, number, time_step):
 @overload(sum_up, inline="always")
 def _sum_up(arrived, listeners, links, params, agents, sums):
     chosen = _SUMMING[arrived.instance_class]
+    if arrived.instance_class is Arrived and can_compile(sum_by_lanes, arrived, listeners, links, params, agents, sums):
+        chosen = sum_by_lanes
     return lambda arrived, listeners, links, params, agents, sums: chosen(
         arrived, listeners, links, params, agents, sums
     )

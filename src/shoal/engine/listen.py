@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from shoal.compiler.kernel import kernel
+from shoal.compiler.lanes import WIDTH, counting, either, everywhere, put, take
 from shoal.core.messages import Briefing, Own, Report, Truth
 from shoal.strategies import contract
 from shoal.world.neighbors import within
@@ -16,6 +17,10 @@ class Arrived(NamedTuple):
     said: Any
     told: Any
     at: float
+
+
+class InTurn(Arrived):
+    """The same where listeners decide one after the other, and cannot be lanes."""
 
 
 class Listeners(NamedTuple):
@@ -57,11 +62,29 @@ def choose_leaders(arrived, listeners, links, params, agents, leader, lowest):
 
 
 @kernel
-def sum_influence(arrived, listeners, links, params, agents, sums):
-    """Add up what the neighbors of each listener exert on it, and count them in links.heard.
+def sum_by_lanes(arrived, listeners, links, params, agents, sums):
+    """Add up what the neighbors of each listener exert on it, and count them in links.heard; lanes are whole blocks.
 
     sums : (S, L), one row per sum of the strategy and one lane per listener
     """
+    square, said, told, at = links.square, arrived.said, arrived.told, arrived.at
+    none = everywhere(0.0)
+    for i in range(0, listeners.x.size, WIDTH):
+        me = listeners_from(listeners, i)
+        reach, heard, totals = take(links.reach, i, none), none, contract.no_sums(none, params)
+        for j in range(agents):
+            rank = contract.ranks_of(links.rank, j, i, params)
+            other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
+            hears = take(square, (j, i), none) <= reach
+            heard = either(hears, heard + 1.0, heard)
+            totals = contract.added(totals, contract.influence(me, other, params), hears)
+        put(links.heard, i, heard)
+        contract.put_sums(sums, i, totals)
+
+
+@kernel
+def sum_influence(arrived, listeners, links, params, agents, sums):
+    """The same for any number of listeners, and for influences with branches: lanes of inner loops."""
     lanes, heard, said, told, at = listeners.x.size, links.heard, arrived.said, arrived.told, arrived.at
     for i in range(lanes):
         contract.clear(sums, i, params)
@@ -79,6 +102,31 @@ def sum_influence(arrived, listeners, links, params, agents, sums):
         else:
             for i in range(lanes):
                 heard[i] += 1 if within(links, j, i) else 0
+
+
+@kernel
+def listeners_from(listeners, i):
+    """Lanes i, i + 1, ... of a block as one listener whose numbers are lanes."""
+    none = everywhere(0.0)
+    briefing = Briefing(0, 0.0, 0.0, 0.0, 0.0, 0.0, False, 0.0, 0.0)
+    truth = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return Own(
+        counting(listeners.first + i),
+        take(listeners.x, i, none),
+        take(listeners.y, i, none),
+        take(listeners.vx, i, none),
+        take(listeners.vy, i, none),
+        take(listeners.on_target, i, none),
+        take(listeners.max_speed, i, none),
+        listeners.time_step,
+        listeners.time,
+        take(listeners.fleet, i, none),
+        briefing,
+        truth,
+        0.0,
+        0.0,
+        False,
+    )
 
 
 @kernel

@@ -126,6 +126,7 @@ def find_links(stage, scratch, world, swarm, radio, number, first, keeps):
     links = scratch.links
     phases = part(stage, PHASES)
     last = first + links.reach.size
+    links.wanted[:] = swarm.neighbors[first:last]
     reports = said(radio, swarm, number)
     measure_distances(
         links, reports.x, reports.y, swarm.fix_x[first:last], swarm.fix_y[first:last], first, world.agents
@@ -142,10 +143,7 @@ def find_links(stage, scratch, world, swarm, radio, number, first, keeps):
         limit_links(links, swarm, radio, first, world.agents, number, range_square)
     if collects(radio):
         enter(phases.receive, stage, number, first, 1 if keeps else 0, 0)
-    if radio.limited or world.coastal:
-        link_nearest(links, links.wanted, world.agents)
-    else:
-        link_nearest(links, swarm.neighbors[first:last], world.agents)
+    link_nearest(links, world.agents)
     rank_heard(links, world.agents)
 
 
@@ -162,10 +160,7 @@ def settle(stage, number, first, batch, key):
 @kernel
 def settle_links(links, world, swarm, radio, run, number, first):
     """Settle ties, by how many are heard, and lose reports; return whether links changed."""
-    if radio.limited or world.coastal:
-        changed = settle_ties(links, links.wanted, world.agents)
-    else:
-        changed = settle_ties(links, swarm.neighbors[first : first + links.reach.size], world.agents)
+    changed = settle_ties(links, world.agents)
     if radio.loss > 0.0 and not collects(radio):
         lose_reports(links, radio, arrival_key(radio, run, number), first, world.agents)
         changed = True

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from shoal.core.agents import aligned_zeros, new_swarm
+from shoal.core.agents import KeptMemories, ListedMemories, Memories, TurnMemories, aligned_zeros, new_swarm
 from shoal.core.declared import Declared
 from shoal.core.errors import PluginError, ScenarioError
 from shoal.engine.stage import new_nature
@@ -61,6 +61,15 @@ def build_world(scenario: Scenario, sea: Sea) -> World:
 
 FEWEST_LISTED = 300  # agents from which on lists of neighbors are faster than the distances of all pairs
 MOST_MEASURED = 10_000  # agents of which the distances of all pairs are kept: 800 MB
+
+
+def kind_of_memories(scenario: Scenario, world: World) -> type[Memories]:
+    """Return the class of a run's memories: which way to listen is compiled, see engine/arrivals.py."""
+    if world.listed:
+        return ListedMemories
+    if scenario.network.max_age:
+        return KeptMemories
+    return TurnMemories if world.sequential else Memories
 
 
 def most_listed(scenario: Scenario, world: World, swarm: Any, radio: Any) -> int:

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from shoal.compiler.kernel import compile_for
 from shoal.compiler.late import compiles
 from shoal.compiler.placed import Placed
-from shoal.core.agents import NEVER, KeptMemories, ListedMemories, Memories, as_records
+from shoal.core.agents import NEVER, as_records
 from shoal.core.errors import ScenarioError, StrategyError
 from shoal.core.plugin_errors import plugin_errors
 from shoal.core.text import plain
@@ -22,7 +22,16 @@ from shoal.engine.stage import Frames, Run, Stage, new_frames, new_scratch
 from shoal.metrics.tally import never_counted, new_tally
 from shoal.record.saved_state import read_state, write_state
 from shoal.record.trajectory import Trajectory
-from shoal.run.build import build_nature, build_radio, build_swarm, build_targets, build_world, losses_of, most_listed
+from shoal.run.build import (
+    build_nature,
+    build_radio,
+    build_swarm,
+    build_targets,
+    build_world,
+    kind_of_memories,
+    losses_of,
+    most_listed,
+)
 from shoal.run.facts import roster_of
 from shoal.run.sea import build_sea
 from shoal.run.state import State, arrays_of, read_only, state_of
@@ -92,8 +101,7 @@ class Simulation:
         self._nature = build_nature(scenario, self._swarm.x.size)
         network = scenario.network
         self.world = self.world._replace(listed=most_listed(scenario, self.world, self._swarm, self._radio))
-        kind = ListedMemories if self.world.listed else KeptMemories if network.max_age else Memories
-        memories = kind(
+        memories = kind_of_memories(scenario, self.world)(
             memory=as_records(self._swarm.memory, self.memory_fields),
             told=as_records(self._swarm.told, self.crew.told),
             arrived=as_records(self._radio.told, self.crew.told),

@@ -36,7 +36,7 @@ def influence(me, other, params):
     dy = me.y - other.y
     square = dx * dx + (dy * dy + _SOFTENING)
     held = max(square, params.core * params.core)
-    push = 1.0 / (held * math.sqrt(square)) if square <= params.perception * params.perception else 0.0
+    push = (square <= params.perception * params.perception) / (held * math.sqrt(square))
     return push * dx, push * dy
 
 

@@ -17,6 +17,7 @@ from functools import cache
 from typing import Any, Required, TypedDict, Unpack
 
 from shoal.compiler.kernel import kernel, overload
+from shoal.compiler.lanes import either, everywhere, put, take
 from shoal.compiler.late import load
 from shoal.core.errors import StrategyError, did_you_mean
 from shoal.core.keywords import lists_keywords
@@ -292,6 +293,29 @@ def add(sums: Any, i: int, values: Any, linked: bool) -> None:
         sums[number, i] += value if linked else 0.0
 
 
+def no_sums(zero: Any, params: Any) -> Any:
+    """Zeros, one for each sum of the owner of params."""
+    return (zero,) * _width(params, type(params))
+
+
+def added(totals: Any, values: Any, linked: Any) -> Any:
+    """The totals with what a neighbor exerts, where it is linked; all of lanes."""
+    return tuple(
+        total + either(linked, value, 0.0) for total, value in zip(totals, values, strict=True)
+    )
+
+
+def put_sums(sums: Any, i: Any, totals: Any) -> None:
+    """Write totals into the sums of the listeners from i on, (S, L)."""
+    for number, total in enumerate(totals):
+        put(sums, (number, i), total)
+
+
+def ranks_of(rank: Any, j: Any, i: Any, params: Any) -> Any:
+    """As `rank_of`, with the listeners from i on, as lanes."""
+    return take(rank, (j, i), everywhere(0)) if _has(params, type(params), "ranked") else None
+
+
 def rank_of(rank: Any, j: int, i: int, params: Any) -> Any:
     """The rank of speaker j with listener i, None if the owner of params does not ask for ranks."""
     return rank[j, i] if _has(params, type(params), "ranked") else None
@@ -365,6 +389,31 @@ def _clear(sums, i, params):
 def _add(sums, i, values, linked):
     added = _adding(values.count)
     return lambda sums, i, values, linked: added(sums, i, values, linked)
+
+
+@overload(no_sums, inline="always")
+def _no_sums(zero, params):
+    made = _zeros(_width(params.types, params.instance_class))
+    return lambda zero, params: made(zero)
+
+
+@overload(added, inline="always")
+def _added(totals, values, linked):
+    made = _plus(totals.count)
+    return lambda totals, values, linked: made(totals, values, linked)
+
+
+@overload(put_sums, inline="always")
+def _put_sums(sums, i, totals):
+    made = _putting(totals.count)
+    return lambda sums, i, totals: made(sums, i, totals)
+
+
+@overload(ranks_of, inline="always")
+def _ranks_of(rank, j, i, params):
+    if _has(params.types, params.instance_class, "ranked"):
+        return lambda rank, j, i, params: take(rank, (j, i), everywhere(0))
+    return lambda rank, j, i, params: None
 
 
 @overload(rank_of, inline="always")
@@ -453,6 +502,39 @@ def _taking(count: int) -> Any:
         return (*before(sums), sums[last])
 
     return kernel(take_all)
+
+
+@cache
+def _zeros(count: int) -> Any:
+    if count == 0:
+        return kernel(lambda zero: ())
+    before = _zeros(count - 1)
+    return kernel(lambda zero: (*before(zero), zero))
+
+
+@cache
+def _plus(count: int) -> Any:
+    if count == 0:
+        return kernel(lambda totals, values, linked: ())
+    before, last = _plus(count - 1), count - 1
+
+    def add_all(totals, values, linked):
+        return (*before(totals, values, linked), totals[last] + either(linked, values[last], 0.0))
+
+    return kernel(add_all)
+
+
+@cache
+def _putting(count: int) -> Any:
+    if count == 0:
+        return kernel(lambda sums, i, totals: None)
+    before, last = _putting(count - 1), count - 1
+
+    def put_all(sums, i, totals):
+        before(sums, i, totals)
+        put(sums, (last, i), totals[last])
+
+    return kernel(put_all)
 
 
 _COUNT_THEM = "return as many numbers as sums=(...) names, which are x and y if it names none"

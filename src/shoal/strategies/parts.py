@@ -3,6 +3,7 @@
 import math
 
 from shoal.compiler.kernel import kernel, overload
+from shoal.compiler.lanes import bits_of, number_of
 
 
 @kernel
@@ -16,12 +17,27 @@ def inverse_power(me, other, exponent):
     dy = me.y - other.y
     square = dx * dx + (dy * dy + _SOFTENING)
     if exponent == 6.0:
-        inverse = 1.0 / square
-        fourth = inverse * inverse
-        push = fourth * fourth * math.sqrt(square)  # r^-7
+        push = inverse_seventh(square)
     else:
         push = min(raised(square, -0.5 * (exponent + 1.0)), _LARGEST_PUSH)
     return push * dx, push * dy
+
+
+@kernel
+def inverse_seventh(square):
+    """r^-7 of r^2 > 0, to 1e-15 of itself, at less than half the cost of a division and a square root.
+
+    The guess of 1/r by halving the exponent in its bits is off by 3.5 %; a polynomial of how far 1/r^2 is off leaves
+    1e-6, and one of what is left then corrects the seventh power at once. Only sums and products that every processor
+    rounds alike: the bits are the same everywhere.
+    """
+    inverse = number_of(_GUESS - (bits_of(square) >> 1))
+    off = 1.0 - square * (inverse * inverse)
+    inverse = inverse + inverse * (off * (0.49999917 + off * (0.37605677 + off * 0.31369143)))  # least error, |off| < 0.07
+    inverse_square = inverse * inverse
+    off = 1.0 - square * inverse_square
+    seventh = (inverse_square * inverse_square) * (inverse_square * inverse)
+    return seventh + seventh * (off * (3.5 + off * 7.875))  # (1 - off)^(-7/2)
 
 
 @kernel
@@ -169,5 +185,6 @@ def _common_divisor(a, b):
     return a
 
 
+_GUESS = 0x5FE6E90AB4188FA9  # the bits of 1/r are about this less half those of r^2
 _LARGEST_PUSH = 1e100  # finite under any exponent, so that zero distance times it is zero
 _SOFTENING = 1e-60  # [m^2]: below the last digit of any distance that is not zero

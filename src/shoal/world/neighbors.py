@@ -2,7 +2,7 @@
 
 There are no index lists. Agent i hears j where square[j, i] <= reach[i]: any reach between the squares of the k-th
 and the (k+1)-th distance serves, and neighborhoods change slowly, so the last step's reach is a good first guess.
-Agents are lanes: the inner loops run over all listeners i and nothing else, so that they compile to vector code.
+Agents are lanes: what loops over pairs handles several listeners at once, in a vector register (compiler/lanes.py).
 """
 
 from typing import NamedTuple
@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shoal.compiler.kernel import kernel
+from shoal.compiler.lanes import WIDTH, any_of, either, everywhere, put, take
 from shoal.core.agents import aligned_zeros
 from shoal.world.lists import Lists, is_listed, new_lists
 
@@ -21,7 +22,7 @@ class Links(NamedTuple):
     """Squared distances [m^2] from speaker (row) to listener (lane), and each listener's reach; the rest is scratch.
 
     Rows are padded to an even number with infinity; an agent is infinitely far from itself. `wanted` is k of each
-    listener where not all pairs can be linked. `rank` says how many of those heard are nearer, agents for those not
+    listener, or fewer where not all pairs can be linked. `rank` says how many of those heard are nearer, agents for those not
     heard; it has no rows where the strategy does not ask.
 
     Where there are many agents, `lists` says who hears whom instead, and `square` and `rank` have no rows; `silent` are
@@ -32,11 +33,6 @@ class Links(NamedTuple):
     reach: np.ndarray
     heard: np.ndarray
     wanted: np.ndarray
-    below: np.ndarray
-    above: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
-    off: np.ndarray
     rank: np.ndarray
     order: np.ndarray
     silent: np.ndarray
@@ -58,11 +54,6 @@ def new_links(agents: int, lanes: int, ranked: bool = False, listed: int = 0) ->
         square,
         reach,
         heard,
-        np.zeros(lanes, np.int64),
-        aligned_zeros(lanes),
-        aligned_zeros(lanes),
-        aligned_zeros(lanes),
-        aligned_zeros(lanes),
         np.zeros(lanes, np.int64),
         np.zeros((rows if ranked else 0, lanes), np.int64),
         np.zeros(agents if ranked and not listed else 0, np.int64),
@@ -110,30 +101,65 @@ def measure_distances(links, speaker_x, speaker_y, listener_x, listener_y, first
 
 
 @kernel
-def link_nearest(links, neighbors, agents):
-    """Set `links.reach` so that every listener hears its k nearest; `neighbors` is k per lane.
+def link_nearest(links, agents):
+    """Set `links.reach` so that every listener hears its `links.wanted` nearest.
 
     Where the k-th and the next are equally far, a listener may hear more or fewer until `settle_ties`.
     """
     lanes = links.reach.size
-    everybody = True
-    for i in range(lanes):
-        everybody &= neighbors[i] >= agents - 1
-    if everybody:
+    if lanes % WIDTH == 0:
+        for i in range(0, lanes, WIDTH):
+            _set_reach(links, i, everywhere(0.0), agents)
+    else:
         for i in range(lanes):
-            links.reach[i] = _FARTHEST
+            _set_reach(links, i, 0.0, agents)
+
+
+@kernel
+def _set_reach(links, i, none, agents):
+    """Set the reach of the listeners from i on, of as many as `none` has lanes.
+
+    A reach steps over the one speaker by which it is off; where it is off by more, it is estimated: counts grow like
+    the square of the distance. An estimate stays inside the bracket found so far, which is bisected after a few rounds.
+    """
+    wanted = take(links.wanted, i, none) + none
+    if not any_of(wanted < agents - 1.0):
+        put(links.reach, i, none + _FARTHEST)
         return
-    for i in range(lanes):
-        links.low[i] = 0.0
-        links.high[i] = _FARTHEST
+    reach = take(links.reach, i, none)
+    low, high = none, none + _FARTHEST
     for attempt in range(ROUNDS):
-        _count(links)
-        if _step_once(links, neighbors) <= lanes // _FEW:
+        heard, below, above = _count(links.square, reach, i, none)
+        low = either(heard < wanted, above, low)
+        high = either(heard > wanted, below, high)
+        stepped = either(heard < wanted, above, below * _BELOW)
+        middle = 0.5 * (below + min(above, 4.0 * below))
+        reach = either(heard == wanted, middle, stepped)
+        missing = wanted - heard
+        far_off = (missing * missing > 1.0) & (low < high)
+        if not any_of(far_off):
             break
-        _guess(links, neighbors, attempt)
-    for i in range(lanes):
-        if abs(links.off[i]) > 1:
-            _walk(links, i, links.off[i])
+        fewer, more = low * ((wanted + 0.5) / (heard + 1.5)), high * ((wanted + 0.5) / (heard - 0.5))
+        guess = either(heard < wanted, fewer, more)
+        half = 0.5 * (low + min(high, 4.0 * low))
+        if attempt > 3:
+            guess = half
+        guess = either((guess < low) | (guess >= high), half, guess)
+        reach = either(far_off, guess, reach)
+    put(links.reach, i, reach)
+
+
+@kernel
+def _count(square, reach, i, none):
+    """How many speakers are within reach of the listeners from i on; the farthest of them, the nearest beyond."""
+    heard, below, above = none, none, none + np.inf
+    for j in range(square.shape[0]):
+        d = take(square, (j, i), none)
+        inside = d <= reach
+        heard = either(inside, heard + 1.0, heard)
+        below = max(below, either(inside, d, 0.0))
+        above = min(above, either(inside, np.inf, d))
+    return heard, below, above
 
 
 @kernel
@@ -147,124 +173,17 @@ def count_heard(links, agents):
 
 
 @kernel
-def settle_ties(links, neighbors, agents):
-    """Correct the listeners whose `links.heard` is not k; return whether there were any."""
+def settle_ties(links, agents):
+    """Correct the listeners whose `links.heard` is not `links.wanted`; return whether there were any."""
     corrected = False
     for i in range(links.reach.size):
-        if links.heard[i] != min(neighbors[i], agents):
-            _settle_tie(links, i, neighbors[i], agents)
+        if links.heard[i] != min(links.wanted[i], agents):
+            _settle_tie(links, i, links.wanted[i], agents)
             corrected = True
     return corrected
 
 
 _FARTHEST = 1e300
-_FEW = 4  # a quarter of the lanes is cheaper to correct one by one
-
-
-@kernel
-def _count(links):
-    """Count speakers within reach; find the farthest within and the nearest beyond. Two rows a turn: 15 % faster."""
-    rows, lanes = links.square.shape
-    square, reach, heard, below, above = links.square, links.reach, links.heard, links.below, links.above
-    for i in range(lanes):
-        heard[i] = 0
-        below[i] = 0.0
-        above[i] = np.inf
-    for j in range(0, rows, 2):
-        for i in range(lanes):
-            limit = reach[i]
-            number = heard[i]
-            farthest = below[i]
-            nearest = above[i]
-            d = square[j, i]
-            inside = d <= limit
-            number += 1 if inside else 0
-            within = d if inside else 0.0
-            farthest = within if within > farthest else farthest
-            beyond = np.inf if inside else d
-            nearest = beyond if beyond < nearest else nearest
-            d = square[j + 1, i]
-            inside = d <= limit
-            number += 1 if inside else 0
-            within = d if inside else 0.0
-            farthest = within if within > farthest else farthest
-            beyond = np.inf if inside else d
-            nearest = beyond if beyond < nearest else nearest
-            heard[i] = number
-            below[i] = farthest
-            above[i] = nearest
-
-
-@kernel
-def _step_once(links, neighbors):
-    """Step every reach over one speaker toward hearing k; return how many listeners a better guess would bring nearer.
-
-    `off` is how many speakers were missing. No branches: how far off each lies is chance, and a wrong prediction costs
-    more than all of this.
-    """
-    reach, heard, below, above, low, high, off = (
-        links.reach, links.heard, links.below, links.above, links.low, links.high, links.off,
-    )  # fmt: skip
-    unsettled = 0
-    for i in range(reach.size):
-        off[i] = neighbors[i] - heard[i]
-    for i in range(reach.size):
-        missing = off[i]
-        nearest, farthest = above[i], below[i]
-        low[i] = nearest if missing > 0 else low[i]
-        high[i] = farthest if missing < 0 else high[i]
-        wide = 4.0 * farthest
-        middle = 0.5 * (farthest + (nearest if nearest < wide else wide))
-        step = nearest if missing > 0 else farthest * _BELOW
-        reach[i] = middle if missing == 0 else step
-    for i in range(reach.size):
-        unsettled += (off[i] * off[i] > 1) & (low[i] < high[i])
-    return unsettled
-
-
-@kernel
-def _guess(links, neighbors, attempt):
-    """Estimate the reach of listeners that are far off: counts grow like the square of the distance.
-
-    A guess stays inside the bracket found so far, which is bisected after a few rounds.
-    """
-    for i in range(links.reach.size):
-        low, high = links.low[i], links.high[i]
-        k = neighbors[i]
-        heard = k - links.off[i]
-        if abs(links.off[i]) > 1 and low < high:
-            guess = low * ((k + 0.5) / (heard + 1.5)) if heard < k else high * ((k + 0.5) / (heard - 0.5))
-            if attempt > 3 or guess < low or guess >= high:
-                guess = 0.5 * (low + min(high, 4.0 * low))
-            links.reach[i] = guess
-
-
-@kernel
-def _walk(links, i, off):
-    """Step listener i's reach, stepped once already, over the rest of `off` speakers."""
-    square = links.square
-    reach = links.reach[i]
-    for _ in range(abs(off) - 1):
-        if off > 0:
-            nearest = np.inf
-            nearest_odd = np.inf  # two chains: each comparison waits for the one before
-            for j in range(0, square.shape[0], 2):
-                d, odd = square[j, i], square[j + 1, i]
-                nearest = d if d > reach and d < nearest else nearest
-                nearest_odd = odd if odd > reach and odd < nearest_odd else nearest_odd
-            further = min(nearest, nearest_odd)
-        else:
-            farthest = 0.0
-            farthest_odd = 0.0
-            for j in range(0, square.shape[0], 2):
-                d, odd = square[j, i], square[j + 1, i]
-                farthest = d if d <= reach and d > farthest else farthest
-                farthest_odd = odd if odd <= reach and odd > farthest_odd else farthest_odd
-            further = max(farthest, farthest_odd) * _BELOW
-        if further == reach:
-            break  # all are at one place: ties, see below
-        reach = further
-    links.reach[i] = reach
 
 
 @kernel

@@ -247,7 +247,7 @@ def adapt_degree(swarm, radio, links, reports, first, last, world):
     exp(-age / patience). A fast target breaks contact more often, and the best k falls as the target speeds up (Kwa,
     Leong Kit, Bouffanais, AAMAS 2020, Fig. 4): the rule needs no knowledge of the speed.
     """
-    contact = links.off  # scratch by now
+    contact = links.wanted  # scratch by now
     for i in range(first, last):
         contact[i - first] = 1 if swarm.on_target[i] else 0
     for j in range(world.agents if links.silent.size == 0 else 0):

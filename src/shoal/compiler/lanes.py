@@ -1,0 +1,79 @@
+"""Lanes: WIDTH agents side by side in a vector register, which a kernel handles as if they were one number.
+
+    for i in range(0, lanes, WIDTH):
+        limit = take(reach, i, everywhere(0.0))          WIDTH numbers of an array, from i on
+        near = take(square, (j, i), limit) <= limit      a mask
+        heard = either(near, heard + 1.0, heard)
+        put(count, i, heard)
+
+`take` takes as much as its last argument is, so that a kernel serves one agent as well as many. What is computed has
+the bits that it has one by one. LLVM makes vector code of loops over lanes, too, but keeps their sums in memory, which
+costs as much as the arithmetic. What numba makes of these functions is in vectors.py; without it lanes are small arrays
+of numpy. A branch cannot ask for a mask: functions with one do not compile for lanes (see engine/arrivals.py).
+"""
+
+from struct import Struct
+from typing import Any
+
+import numpy as np
+
+from shoal.compiler.late import when_loaded
+
+WIDTH = 8  # doubles of an AVX-512 register; LLVM splits them where registers are smaller
+
+
+_DOUBLE, _WHOLE = Struct("=d"), Struct("=q")
+
+
+def everywhere(number: Any) -> Any:
+    """The same number in all lanes."""
+    return np.full(WIDTH, number)
+
+
+def counting(first: int) -> Any:
+    """first, first + 1, ..."""
+    return np.arange(first, first + WIDTH)
+
+
+def take(array: Any, at: Any, like: Any) -> Any:
+    """As many entries of an array from `at` on, an index or a pair of them, as `like` has."""
+    if not isinstance(like, np.ndarray):
+        return array[at]
+    row, first = (array[at[0]], at[1]) if isinstance(at, tuple) else (array, at)
+    return row[first : first + WIDTH].copy()
+
+
+def put(array: Any, at: Any, values: Any) -> None:
+    """Write values into an array from `at` on, an index or a pair of them."""
+    if not isinstance(values, np.ndarray):
+        array[at] = values
+        return
+    row, first = (array[at[0]], at[1]) if isinstance(at, tuple) else (array, at)
+    row[first : first + WIDTH] = values
+
+
+def either(mask: Any, a: Any, b: Any) -> Any:
+    """`a` where the mask is true, else `b`; both are evaluated."""
+    return np.where(mask, a, b) if isinstance(mask, np.ndarray) else a if mask else b
+
+
+def bits_of(number: Any) -> Any:
+    """The 64 bits of a number, as a whole one."""
+    return _WHOLE.unpack(_DOUBLE.pack(number))[0]
+
+
+def number_of(bits: Any) -> Any:
+    """The number of 64 bits."""
+    return _DOUBLE.unpack(_WHOLE.pack(bits))[0]
+
+
+def any_of(mask: Any) -> Any:
+    """Whether it is true anywhere."""
+    return np.any(mask)
+
+
+def _say(numba: Any) -> None:
+    import shoal.compiler.vectors
+
+
+when_loaded(_say)

@@ -1,0 +1,293 @@
+"""What numba makes of lanes (lanes.py): values of LLVM's vector types, with the operators of numbers.
+
+Operators are taught to numba by their types and their code, not as functions in Python, which it would compile one by
+one for every kind of arguments.
+"""
+
+import math
+import operator
+from collections.abc import Callable
+from functools import partial
+from itertools import product
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.core.errors import TypingError
+from numba.core.imputils import lower_builtin
+from numba.core.typing.templates import AbstractTemplate, infer_global, signature
+from numba.extending import models, register_model
+
+from shoal.compiler.lanes import WIDTH, any_of, bits_of, counting, either, everywhere, number_of, put, take
+
+_TYPE: Any = types.Type  # numba has no types that mypy sees
+_MODEL: Any = models.PrimitiveModel
+_TEMPLATE: Any = AbstractTemplate
+_learn: Any = infer_global
+_code_of: Any = lower_builtin
+_model_of: Any = register_model
+
+
+class Lanes(_TYPE):  # type: ignore[misc]
+    """WIDTH numbers, or truths, of a kind."""
+
+    def __init__(self, kind: Any, element: Any) -> None:
+        self.kind = kind
+        self.vector = ir.VectorType(element, WIDTH)
+        super().__init__(name=f"Lanes({kind})")
+
+    @property
+    def key(self) -> Any:
+        """What makes two of them the same."""
+        return self.kind
+
+
+FLOATS = Lanes(types.float64, ir.DoubleType())
+WHOLE = Lanes(types.int64, ir.IntType(64))
+MASK = Lanes(types.boolean, ir.IntType(1))
+_SIZES = {types.float64: 8, types.int64: 8, types.boolean: 1}  # in bytes: of what lanes are made of
+
+
+@_model_of(Lanes)
+class _Vector(_MODEL):  # type: ignore[misc]
+    def __init__(self, manager: Any, lanes: Lanes) -> None:
+        super().__init__(manager, lanes, lanes.vector)
+
+
+def _common(*kinds: Any) -> Lanes:
+    """The lanes that numbers of these kinds become together."""
+    inner = [getattr(each, "kind", each) for each in kinds]
+    return FLOATS if any(isinstance(each, types.Float) for each in inner) else WHOLE
+
+
+def _are_numbers(*kinds: Any) -> bool:
+    """Whether these are lanes, or lanes and numbers."""
+    numbers = (Lanes, types.Float, types.Integer, types.Boolean)
+    return any(isinstance(each, Lanes) for each in kinds) and all(isinstance(each, numbers) for each in kinds)
+
+
+def _widened(context: Any, builder: Any, value: Any, kind: Any, to: Lanes) -> Any:
+    """A number, or lanes of another kind, as lanes."""
+    if not isinstance(kind, Lanes):
+        return _spread(builder, context.cast(builder, value, kind, to.kind), to)
+    if kind is to:
+        return value
+    if kind is MASK:
+        return builder.uitofp(value, to.vector) if to is FLOATS else builder.zext(value, to.vector)
+    return builder.sitofp(value, to.vector) if to is FLOATS else builder.fptosi(value, to.vector)
+
+
+def _spread(builder: Any, scalar: Any, to: Lanes) -> Any:
+    word = ir.IntType(32)
+    one = builder.insert_element(ir.Constant(to.vector, ir.Undefined), scalar, word(0))
+    return builder.shuffle_vector(one, one, ir.Constant(ir.VectorType(word, WIDTH), [0] * WIDTH))
+
+
+def _teach(function: Any, kind_of: Callable[..., Any], code: Callable[..., Any], *counts: int) -> None:
+    """Teach numba a function of lanes.
+
+    Parameters
+    ----------
+    function : as kernels name it
+    kind_of : the type of what it returns by those of its arguments; None where it is not for these
+    code : makes LLVM's code, of (context, builder, types of arguments, arguments, type of the result)
+    counts : how many arguments it takes
+    """
+
+    class Template(_TEMPLATE):  # type: ignore[misc]
+        def generic(self, arguments: Any, keywords: Any) -> Any:
+            """The signature for these arguments."""
+            result = kind_of(*arguments) if len(arguments) in counts and not keywords else None
+            return None if result is None else signature(result, *arguments)
+
+    def write(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return code(context, builder, signature.args, arguments, signature.return_type)
+
+    _learn(function)(Template)
+    for count in counts:
+        for kinds in product((types.Any, Lanes), repeat=count):
+            if Lanes in kinds or function not in _SHARED:  # with numbers, whose code is numba's
+                _code_of(function, *kinds)(write)
+
+
+_SHARED = {getattr(operator, name) for name in "add sub mul truediv rshift lt le gt ge eq ne and_ or_ pow neg".split()} | {
+    max,
+    min,
+    abs,
+    math.sqrt,
+}
+
+
+def _binary(symbol: Any, build: Callable[..., Any], result: Lanes | None = None, floats: bool = False) -> None:
+    """Teach a binary operator, which `build` makes of (builder, x, y, their lanes)."""
+
+    def kind_of(a: Any, b: Any) -> Any:
+        if not _are_numbers(a, b):
+            return None
+        return result or (FLOATS if floats else _common(a, b))
+
+    def code(context: Any, builder: Any, kinds: Any, arguments: Any, _: Any) -> Any:
+        to = FLOATS if floats else _common(*kinds)
+        x, y = (_widened(context, builder, *each, to) for each in zip(arguments, kinds, strict=True))
+        return build(builder, x, y, to)
+
+    _teach(symbol, kind_of, code, 2)
+
+
+_binary(operator.add, lambda builder, x, y, to: (builder.fadd if to is FLOATS else builder.add)(x, y))
+_binary(operator.sub, lambda builder, x, y, to: (builder.fsub if to is FLOATS else builder.sub)(x, y))
+_binary(operator.mul, lambda builder, x, y, to: (builder.fmul if to is FLOATS else builder.mul)(x, y))
+_binary(operator.truediv, lambda builder, x, y, to: builder.fdiv(x, y), floats=True)
+
+
+_binary(operator.rshift, lambda builder, x, y, to: builder.ashr(x, y))  # of whole numbers
+
+
+def _compared(sign: str, builder: Any, x: Any, y: Any, to: Lanes) -> Any:
+    if to is not FLOATS:
+        return builder.icmp_signed(sign, x, y)
+    return builder.fcmp_unordered(sign, x, y) if sign == "!=" else builder.fcmp_ordered(sign, x, y)
+
+
+for _name, _sign in {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "eq": "==", "ne": "!="}.items():
+    _binary(getattr(operator, _name), partial(_compared, _sign), MASK)
+
+# As Python does: the first where they are equal, or one is NaN.
+_binary(max, lambda builder, a, b, to: builder.select(_compared(">", builder, b, a, to), b, a))
+_binary(min, lambda builder, a, b, to: builder.select(_compared("<", builder, b, a, to), b, a))
+
+
+def _logic(symbol: Any, method: str) -> None:
+    def kind_of(a: Any, b: Any) -> Any:
+        truths = all(each is MASK or isinstance(each, types.Boolean) for each in (a, b))
+        return MASK if truths and MASK in (a, b) else None
+
+    def code(context: Any, builder: Any, kinds: Any, arguments: Any, _: Any) -> Any:
+        both = zip(arguments, kinds, strict=True)
+        return getattr(builder, method)(*(each if kind is MASK else _spread(builder, each, MASK) for each, kind in both))
+
+    _teach(symbol, kind_of, code, 2)
+
+
+_logic(operator.and_, "and_")
+_logic(operator.or_, "or_")
+
+
+def _of_llvm(function: Any, name: str, count: int, taken: Callable[..., bool]) -> None:
+    """Teach a function of doubles that LLVM has for vectors."""
+
+    def kind_of(*kinds: Any) -> Any:
+        return FLOATS if taken(*kinds) else None
+
+    def code(context: Any, builder: Any, kinds: Any, arguments: Any, _: Any) -> Any:
+        lanes = [_widened(context, builder, *each, FLOATS) for each in zip(arguments, kinds, strict=True)]
+        kind = ir.FunctionType(FLOATS.vector, [FLOATS.vector] * count)
+        return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDTH}f64"), lanes)
+
+    _teach(function, kind_of, code, count)
+
+
+_of_llvm(math.sqrt, "sqrt", 1, lambda x: x in (FLOATS, WHOLE))
+_of_llvm(abs, "fabs", 1, lambda x: x is FLOATS)
+_of_llvm(operator.pow, "pow", 2, lambda x, y: isinstance(x, Lanes) and isinstance(y, types.Float))  # whole: not by pow
+
+
+def _negated(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
+    return builder.fneg(arguments[0]) if result is FLOATS else builder.neg(arguments[0])
+
+
+_teach(operator.neg, lambda x: x if x in (FLOATS, WHOLE) else None, _negated, 1)
+
+
+def _kind_of_either(mask: Any, a: Any, b: Any) -> Any:
+    if mask is MASK or _are_numbers(a, b):
+        return _common(a, b)
+    return _common(a, b).kind
+
+
+def _picked(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
+    values = zip(arguments[1:], kinds[1:], strict=True)
+    if not isinstance(result, Lanes):
+        return builder.select(arguments[0], *(context.cast(builder, *each, result) for each in values))
+    return builder.select(arguments[0], *(_widened(context, builder, *each, result) for each in values))
+
+
+def _is_any(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
+    if kinds[0] is not MASK:
+        return arguments[0]
+    word = ir.IntType(WIDTH)
+    return builder.icmp_unsigned("!=", builder.bitcast(arguments[0], word), word(0))
+
+
+def _everywhere(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
+    return _widened(context, builder, arguments[0], kinds[0], result)
+
+
+def _counted(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
+    first = _widened(context, builder, arguments[0], kinds[0], WHOLE)
+    return builder.add(first, ir.Constant(WHOLE.vector, list(range(WIDTH))))
+
+
+def _as_bits(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
+    return builder.bitcast(arguments[0], context.get_value_type(result))
+
+
+_teach(bits_of, lambda x: WHOLE if x is FLOATS else types.int64, _as_bits, 1)
+_teach(number_of, lambda x: FLOATS if x is WHOLE else types.float64, _as_bits, 1)
+_teach(either, _kind_of_either, _picked, 3)
+_teach(any_of, lambda mask: types.boolean, _is_any, 1)
+_teach(everywhere, lambda number: _common(number), _everywhere, 1)
+_teach(counting, lambda first: WHOLE, _counted, 1)
+
+
+def _kind_of_take(array: Any, at: Any, like: Any) -> Any:
+    _check(array)
+    if not isinstance(like, Lanes):
+        return array.dtype
+    return MASK if array.dtype is types.boolean else _common(array.dtype)
+
+
+def _taken(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
+    array, at, like = kinds
+    where = _pointer(context, builder, array, at, arguments)
+    if not isinstance(like, Lanes):
+        return context.unpack_value(builder, array.dtype, where)
+    block = ir.VectorType(where.type.pointee, WIDTH)
+    loaded = builder.load(builder.bitcast(where, block.as_pointer()))
+    loaded.align = _SIZES[array.dtype]
+    return builder.icmp_unsigned("!=", loaded, ir.Constant(block, [0] * WIDTH)) if result is MASK else loaded
+
+
+def _put(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
+    array, at, values = kinds
+    where = _pointer(context, builder, array, at, arguments)
+    if isinstance(values, Lanes):
+        written = _widened(context, builder, arguments[2], values, _common(array.dtype))
+        where = builder.bitcast(where, written.type.as_pointer())
+        builder.store(written, where).align = _SIZES[array.dtype]
+    else:
+        context.pack_value(builder, array.dtype, context.cast(builder, arguments[2], values, array.dtype), where)
+    return context.get_dummy_value()
+
+
+def _check(array: Any) -> Any:
+    if array.layout != "C" or array.ndim > 2 or array.dtype not in _SIZES:
+        raise TypingError(f"lanes are not taken of {array}")
+    return types.void
+
+
+def _pointer(context: Any, builder: Any, array: Any, at: Any, arguments: Any) -> Any:
+    """Where an array has the entry `at`, an index or a pair of them."""
+    held = context.make_array(array)(context, builder, arguments[0])
+    if not isinstance(at, types.BaseTuple):
+        return builder.gep(held.data, [context.cast(builder, arguments[1], at, types.intp)])
+    row, first = (
+        context.cast(builder, builder.extract_value(arguments[1], n), kind, types.intp) for n, kind in enumerate(at)
+    )
+    columns = cgutils.unpack_tuple(builder, held.shape)[1]
+    return builder.gep(held.data, [builder.add(first, builder.mul(row, columns))])
+
+
+_teach(take, _kind_of_take, _taken, 3)
+_teach(put, lambda array, at, values: _check(array), _put, 3)
