@@ -8,7 +8,7 @@ import pytest
 from shoal.compiler.kernel import kernel
 from shoal.core.agents import new_swarm
 from shoal.core.draws import split, uniform
-from shoal.world.lists import LANES, Reception, is_listed, list_nearest, new_lists
+from shoal.world.lists import LANES, Reception, heard_of, is_listed, list_nearest, new_lists
 from shoal.world.neighbors import Links, linked, new_links
 
 
@@ -42,11 +42,13 @@ class World:
     def listed(self, reports=None, **reception):
         how = {"range_square": np.inf, "by_truth": False, "loss": 0.0, "key": np.uint64(1)} | reception
         list_nearest(self.links, reports or self.swarm, self.swarm, Reception(**how), self.agents)
+        return [self.heard_by(i) for i in range(self.agents)]
+
+    def heard_by(self, i):
         lists = self.links.lists
-        places = lists.cells.place[: self.agents]
-        slots = lists.cells.order[lists.slots[places // LANES, :, places % LANES]]
-        heard = lists.heard[places // LANES, places % LANES]
-        return [row[:count] for row, count in zip(slots.tolist(), heard.tolist(), strict=True)]
+        block, lane = divmod(int(lists.cells.place[i]), LANES)
+        kept = slice(lists.begins[block], lists.begins[block + 1])
+        return lists.cells.order[lists.near[kept]][lists.hears[kept] >> lane & 1 == 1].tolist()
 
 
 def random_places(random, agents):
@@ -136,8 +138,9 @@ def test_ranks():
     lists = world.links.lists
     for i, heard in enumerate(listed):
         nearest = sorted(heard, key=lambda j: ((x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2, j))
-        p = lists.cells.place[i]
-        assert [lists.rank[p // LANES, slot, p % LANES] for slot in range(8)] == [nearest.index(j) for j in heard]
+        block, lane = divmod(int(lists.cells.place[i]), LANES)
+        kept = [c for c in range(lists.begins[block], lists.begins[block + 1]) if lists.hears[c] >> lane & 1]
+        assert [lists.rank[c, lane] for c in kept] == [nearest.index(j) for j in heard]
 
 
 def test_who_is_linked():
@@ -147,6 +150,7 @@ def test_who_is_linked():
     for i, heard in enumerate(listed):
         assert [j for j in range(50) if linked(world.links, j, i)] == heard
         assert [j for j in range(50) if is_listed(world.links.lists, j, i)] == heard
+        assert [heard_of(world.links.lists, i, slot) for slot in range(6)] == [*heard, -1]
 
 
 def test_somebody_who_is_nowhere_stops_nobody():
@@ -161,11 +165,11 @@ def test_somebody_who_is_nowhere_stops_nobody():
 @pytest.mark.parametrize("agents", [0, 1, 16, 17])
 def test_lists_are_padded_to_whole_blocks(agents):
     lists = new_lists(agents, 3, ranked=False)
-    assert lists.heard.size == -(-agents // 16) * 16
+    assert lists.leads.size == -(-agents // 8) * 8
     assert lists.rank.shape[0] == 0
 
 
 def test_links_have_either():
-    assert new_links(50, 56).lists.slots.size == 0
+    assert new_links(50, 56).lists.leads.size == 0
     assert new_links(50, 56, listed=4).square.size == 0
     assert isinstance(new_links(50, 56, listed=4), Links)

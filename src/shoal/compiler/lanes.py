@@ -57,6 +57,16 @@ def either(mask: Any, a: Any, b: Any) -> Any:
     return np.where(mask, a, b) if isinstance(mask, np.ndarray) else a if mask else b
 
 
+def smaller(a: Any, b: Any) -> Any:
+    """The smaller one in each lane, `a` where they are equal or one is NaN: Python's min."""
+    return either(b < a, b, a)
+
+
+def larger(a: Any, b: Any) -> Any:
+    """The larger one in each lane: Python's max."""
+    return either(b > a, b, a)
+
+
 def bits_of(number: Any) -> Any:
     """The 64 bits of a number, as a whole one."""
     return _WHOLE.unpack(_DOUBLE.pack(number))[0]
@@ -65,6 +75,21 @@ def bits_of(number: Any) -> Any:
 def number_of(bits: Any) -> Any:
     """The number of 64 bits."""
     return _DOUBLE.unpack(_WHOLE.pack(bits))[0]
+
+
+def gather(array: Any, at: Any) -> Any:
+    """The entries of an array at the indices that lanes are."""
+    return array[at]
+
+
+def truths(mask: Any) -> Any:
+    """A mask as a whole number, a bit per lane."""
+    return int(np.dot(mask, 1 << np.arange(WIDTH)))
+
+
+def mask_of(word: Any) -> Any:
+    """The mask of a whole number."""
+    return (word >> np.arange(WIDTH)) & 1 != 0
 
 
 def any_of(mask: Any) -> Any:

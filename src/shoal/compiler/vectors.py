@@ -19,7 +19,22 @@ from numba.core.imputils import lower_builtin
 from numba.core.typing.templates import AbstractTemplate, infer_global, signature
 from numba.extending import models, register_model
 
-from shoal.compiler.lanes import WIDTH, any_of, bits_of, counting, either, everywhere, number_of, put, take
+from shoal.compiler.lanes import (
+    WIDTH,
+    any_of,
+    bits_of,
+    counting,
+    either,
+    everywhere,
+    gather,
+    larger,
+    mask_of,
+    number_of,
+    put,
+    smaller,
+    take,
+    truths,
+)
 
 _TYPE: Any = types.Type  # numba has no types that mypy sees
 _MODEL: Any = models.PrimitiveModel
@@ -46,7 +61,7 @@ class Lanes(_TYPE):  # type: ignore[misc]
 FLOATS = Lanes(types.float64, ir.DoubleType())
 WHOLE = Lanes(types.int64, ir.IntType(64))
 MASK = Lanes(types.boolean, ir.IntType(1))
-_SIZES = {types.float64: 8, types.int64: 8, types.boolean: 1}  # in bytes: of what lanes are made of
+_SIZES = {types.float64: 8, types.int64: 8, types.int32: 4, types.boolean: 1}  # in bytes: of what lanes are made of
 
 
 @_model_of(Lanes)
@@ -150,12 +165,16 @@ def _compared(sign: str, builder: Any, x: Any, y: Any, to: Lanes) -> Any:
     return builder.fcmp_unordered(sign, x, y) if sign == "!=" else builder.fcmp_ordered(sign, x, y)
 
 
+def _extreme(sign: str, builder: Any, a: Any, b: Any, to: Lanes) -> Any:
+    """As Python does: the first where they are equal, or one is NaN."""
+    return builder.select(_compared(sign, builder, b, a, to), b, a)
+
+
 for _name, _sign in {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "eq": "==", "ne": "!="}.items():
     _binary(getattr(operator, _name), partial(_compared, _sign), MASK)
 
-# As Python does: the first where they are equal, or one is NaN.
-_binary(max, lambda builder, a, b, to: builder.select(_compared(">", builder, b, a, to), b, a))
-_binary(min, lambda builder, a, b, to: builder.select(_compared("<", builder, b, a, to), b, a))
+for _function, _sign in {max: ">", min: "<"}.items():
+    _binary(_function, partial(_extreme, _sign))
 
 
 def _logic(symbol: Any, method: str) -> None:
@@ -213,6 +232,15 @@ def _picked(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any)
     return builder.select(arguments[0], *(_widened(context, builder, *each, result) for each in values))
 
 
+def _as_word(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
+    return builder.zext(builder.bitcast(arguments[0], ir.IntType(WIDTH)), ir.IntType(64))
+
+
+def _as_mask(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
+    word = context.cast(builder, arguments[0], kinds[0], types.int64)
+    return builder.bitcast(builder.trunc(word, ir.IntType(WIDTH)), MASK.vector)
+
+
 def _is_any(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
     if kinds[0] is not MASK:
         return arguments[0]
@@ -235,7 +263,27 @@ def _as_bits(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any
 
 _teach(bits_of, lambda x: WHOLE if x is FLOATS else types.int64, _as_bits, 1)
 _teach(number_of, lambda x: FLOATS if x is WHOLE else types.float64, _as_bits, 1)
+def _extreme_of(sign: str) -> Callable[..., Any]:
+    """`smaller` and `larger` of lanes, and of numbers, which become lanes for it and are one again."""
+
+    def code(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
+        to = _common(*kinds)
+        both = (_widened(context, builder, *each, to) for each in zip(arguments, kinds, strict=True))
+        chosen = _extreme(sign, builder, *both, to)
+        return chosen if result is to else builder.extract_element(chosen, ir.IntType(32)(0))
+
+    return code
+
+
+def _kind_of_extreme(a: Any, b: Any) -> Any:
+    return _common(a, b) if _are_numbers(a, b) else _common(a, b).kind
+
+
+_teach(smaller, _kind_of_extreme, _extreme_of("<"), 2)
+_teach(larger, _kind_of_extreme, _extreme_of(">"), 2)
 _teach(either, _kind_of_either, _picked, 3)
+_teach(truths, lambda mask: types.int64 if mask is MASK else None, _as_word, 1)
+_teach(mask_of, lambda word: MASK, _as_mask, 1)
 _teach(any_of, lambda mask: types.boolean, _is_any, 1)
 _teach(everywhere, lambda number: _common(number), _everywhere, 1)
 _teach(counting, lambda first: WHOLE, _counted, 1)
@@ -248,6 +296,11 @@ def _kind_of_take(array: Any, at: Any, like: Any) -> Any:
     return MASK if array.dtype is types.boolean else _common(array.dtype)
 
 
+def _kind_of_gather(array: Any, at: Any) -> Any:
+    _check(array)
+    return MASK if array.dtype is types.boolean else _common(array.dtype)
+
+
 def _taken(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
     array, at, like = kinds
     where = _pointer(context, builder, array, at, arguments)
@@ -256,7 +309,20 @@ def _taken(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) 
     block = ir.VectorType(where.type.pointee, WIDTH)
     loaded = builder.load(builder.bitcast(where, block.as_pointer()))
     loaded.align = _SIZES[array.dtype]
-    return builder.icmp_unsigned("!=", loaded, ir.Constant(block, [0] * WIDTH)) if result is MASK else loaded
+    if result is MASK:
+        return builder.icmp_unsigned("!=", loaded, ir.Constant(block, [0] * WIDTH))
+    return builder.sext(loaded, result.vector) if array.dtype is types.int32 else loaded
+
+
+def _gathered(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
+    array = kinds[0]
+    held = context.make_array(array)(context, builder, arguments[0])
+    lanes = ir.Constant(result.vector, ir.Undefined)
+    for lane in map(ir.IntType(32), range(WIDTH)):
+        entry = builder.gep(held.data, [builder.extract_element(arguments[1], lane)])
+        value = context.cast(builder, context.unpack_value(builder, array.dtype, entry), array.dtype, result.kind)
+        lanes = builder.insert_element(lanes, value, lane)
+    return lanes
 
 
 def _put(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
@@ -290,4 +356,5 @@ def _pointer(context: Any, builder: Any, array: Any, at: Any, arguments: Any) ->
 
 
 _teach(take, _kind_of_take, _taken, 3)
+_teach(gather, _kind_of_gather, _gathered, 2)
 _teach(put, lambda array, at, values: _check(array), _put, 3)

@@ -10,7 +10,7 @@ from typing import Any
 from shoal.compiler.kernel import can_compile, kernel, overload
 from shoal.core.agents import KeptMemories, ListedMemories, Memories, TurnMemories
 from shoal.engine.kept import Kept, choose_kept_leaders, row_of, sum_kept_influence
-from shoal.engine.listed import Listed, choose_listed_leaders, sum_listed_influence
+from shoal.engine.listed import Listed, choose_listed_leaders, sum_listed_by_lanes, sum_listed_influence
 from shoal.engine.listen import Arrived, InTurn, choose_leaders, sum_by_lanes, sum_influence
 from shoal.world.radio import row, said, spoken
 
@@ -57,6 +57,7 @@ _SUMMING: dict[Any, Any] = {
     Kept: sum_kept_influence,
     Listed: sum_listed_influence,
 }
+_BY_LANES: dict[Any, Any] = {Arrived: sum_by_lanes, Listed: sum_listed_by_lanes}  # where influence has no branches
 _CHOOSING: dict[Any, Any] = {
     Arrived: choose_leaders,
     InTurn: choose_leaders,
@@ -108,8 +109,9 @@ def _arriving(memories, radio, swarm, number, time_step):
 @overload(sum_up, inline="always")
 def _sum_up(arrived, listeners, links, params, agents, sums):
     chosen = _SUMMING[arrived.instance_class]
-    if arrived.instance_class is Arrived and can_compile(sum_by_lanes, arrived, listeners, links, params, agents, sums):
-        chosen = sum_by_lanes
+    by_lanes = _BY_LANES.get(arrived.instance_class)
+    if by_lanes and can_compile(by_lanes, arrived, listeners, links, params, agents, sums):
+        chosen = by_lanes
     return lambda arrived, listeners, links, params, agents, sums: chosen(
         arrived, listeners, links, params, agents, sums
     )

@@ -9,7 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from shoal.compiler.kernel import kernel
-from shoal.core.messages import Report
+from shoal.compiler.lanes import everywhere, gather, mask_of, take
+from shoal.core.messages import Briefing, Own, Report, Truth
 from shoal.engine.listen import listener_at
 from shoal.strategies import contract
 from shoal.world.lists import LANES, note_leader
@@ -24,62 +25,109 @@ class Listed(NamedTuple):
 
 
 @kernel
-def sum_listed_influence(arrived, listeners, links, params, agents, sums):
-    """Add up what the neighbors of each listener exert on it, (S, L)."""
+def sum_listed_by_lanes(arrived, listeners, links, params, agents, sums):
+    """Add up what the neighbors of each listener exert on it, (S, L): a block at a time."""
     lists, said, told, at = links.lists, arrived.said, arrived.told, arrived.at
-    cells, slots = lists.cells, lists.slots
-    if not contract.has_influence(params):
-        for i in range(agents):
-            contract.clear(sums, i, params)
-        return
+    order, none = lists.cells.order, everywhere(0.0)
     block = np.empty((sums.shape[0], LANES))
-    for number in range(slots.shape[0]):
-        longest = 0
+    for number in range(lists.begins.size - 1):
+        p = number * LANES
+        me, totals = listeners_at(listeners, lists.cells, p), contract.no_sums(none, params)
+        for c in range(lists.begins[number], lists.begins[number + 1]):
+            q = lists.near[c]
+            j = order[q]
+            x, y = lists.cells.x[q], lists.cells.y[q]
+            rank = contract.ranks_of(lists.rank, c, 0, params)
+            other = Report(j, x, y, said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
+            totals = contract.added(totals, contract.influence(me, other, params), mask_of(lists.hears[c]))
+        contract.put_sums(block, 0, totals)
+        _hand_out(block, order, p, sums, agents)
+
+
+@kernel
+def _hand_out(block, order, p, sums, agents):
+    """Give the agents at places p, p + 1, ... their sums."""
+    for lane in range(min(LANES, agents - p)):
+        for each in range(block.shape[0]):
+            sums[each, order[p + lane]] = block[each, lane]
+
+
+@kernel
+def listeners_at(listeners, cells, p):
+    """The agents at places p, p + 1, ... as one listener whose numbers are lanes."""
+    none = everywhere(0.0)
+    i = take(cells.order, p, none)
+    briefing = Briefing(0, 0.0, 0.0, 0.0, 0.0, 0.0, False, 0.0, 0.0)
+    truth = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return Own(
+        i,
+        take(cells.own_x, p, none),
+        take(cells.own_y, p, none),
+        gather(listeners.vx, i),
+        gather(listeners.vy, i),
+        gather(listeners.on_target, i),
+        gather(listeners.max_speed, i),
+        listeners.time_step,
+        listeners.time,
+        gather(listeners.fleet, i),
+        briefing,
+        truth,
+        0.0,
+        0.0,
+        False,
+    )
+
+
+@kernel
+def sum_listed_influence(arrived, listeners, links, params, agents, sums):
+    """The same for influences with branches."""
+    lists, said, told, at = links.lists, arrived.said, arrived.told, arrived.at
+    cells, order = lists.cells, lists.cells.order
+    block = np.empty((sums.shape[0], LANES))
+    for number in range(lists.begins.size - 1):
+        p = number * LANES
         for lane in range(LANES):
             contract.clear(block, lane, params)
-            longest = max(longest, lists.heard[number, lane])
-        first = number * LANES
-        for slot in range(longest):
+        for c in range(lists.begins[number], lists.begins[number + 1]):
+            q = lists.near[c]
+            j = order[q]
             for lane in range(LANES):
-                p, q = first + lane, slots[number, slot, lane]
-                i, j = cells.order[p], cells.order[q]
-                me = listener_at(listeners, i, cells.own_x[p], cells.own_y[p])
-                rank = contract.rank_of(lists.rank[number], slot, lane, params)
+                me = listener_at(listeners, order[p + lane], cells.own_x[p + lane], cells.own_y[p + lane])
+                rank = contract.rank_of(lists.rank, c, lane, params)
                 other = Report(j, cells.x[q], cells.y[q], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
                 pushed = contract.influence(me, other, params)
-                contract.add(block, lane, pushed, slot < lists.heard[number, lane])
-        for lane in range(min(LANES, agents - first)):
-            i = cells.order[first + lane]
-            for each in range(block.shape[0]):
-                sums[each, i] = block[each, lane]
+                contract.add(block, lane, pushed, (lists.hears[c] >> lane) & 1 != 0)
+        _hand_out(block, order, p, sums, agents)
 
 
 @kernel
 def choose_listed_leaders(arrived, listeners, links, params, agents, leader, lowest):
     """Set leader[i] to the index of the neighbor that listener i follows, -1 if none; lowest[i] is its priority."""
     lists, said, told, at = links.lists, arrived.said, arrived.told, arrived.at
-    cells = lists.cells
+    cells, order = lists.cells, lists.cells.order
     anybody = False
     for j in range(agents):
         leader[j] = -1
+        lowest[j] = np.inf
         other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, None)
         leads = contract.leads(other, params)
         note_leader(lists, j, leads)
         anybody |= leads
-    if not anybody:
-        return
-    for p in range(agents):
-        number, lane = p // LANES, p % LANES
-        i = cells.order[p]
-        best = np.inf
-        me = listener_at(listeners, i, cells.own_x[p], cells.own_y[p])
-        for slot in range(lists.heard[number, lane]):
-            q = lists.slots[number, slot, lane]
+    for number in range(lists.begins.size - 1 if anybody else 0):
+        p = number * LANES
+        for c in range(lists.begins[number], lists.begins[number + 1]):
+            q = lists.near[c]
             if lists.leads[q] != 0:
-                j = cells.order[q]
-                rank = contract.rank_of(lists.rank[number], slot, lane, params)
-                other = Report(j, cells.x[q], cells.y[q], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
-                priority = contract.priority(me, other, params)
-                if priority < best:
-                    best = priority
-                    leader[i] = j
+                j = order[q]
+                for lane in range(LANES):
+                    if (lists.hears[c] >> lane) & 1 != 0:
+                        i = order[p + lane]
+                        me = listener_at(listeners, i, cells.own_x[p + lane], cells.own_y[p + lane])
+                        rank = contract.rank_of(lists.rank, c, lane, params)
+                        other = Report(
+                            j, cells.x[q], cells.y[q], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank
+                        )
+                        priority = contract.priority(me, other, params)
+                        if priority < lowest[i]:
+                            lowest[i] = priority
+                            leader[i] = j

@@ -54,7 +54,7 @@ def least_in_cells(cells, reach, swarm, agents, least):
                     continue
                 radius = math.sqrt(least)
                 for row in range(row_of(cells.grid, y - radius), row_of(cells.grid, y + radius) + 1):
-                    begin, end = span(cells, x, y, radius, row)
+                    begin, end = span(cells, x, x, y, y, radius, row)
                     least = _least(cells, swarm, i, max(begin, p + 1), end, least)
     return least
 

@@ -67,39 +67,42 @@ def cluster_all(links, alive, part, agents):
 @kernel
 def cluster_lists(lists, alive, part, agents):
     """The same, where lists say who hears whom."""
-    cells, slots = lists.cells, lists.slots
-    most = slots.shape[1]
+    order, most = lists.cells.order, lists.most
     among = np.full(agents, -1)  # where among those whom p hears, as p * most + number
     pairs = np.zeros((most, (most + 31) // 32), np.int64)  # of these, which are linked, as bits
     clustering = np.zeros(agents)
     for p in range(agents):
-        block, lane = p // LANES, p % LANES
         count = 0
-        for slot in range(lists.heard[block, lane]):
-            q = slots[block, slot, lane]
-            if alive[cells.order[q]] > 0.0:
-                _join(part, cells.order[p], cells.order[q])
+        for c in range(lists.begins[p // LANES], lists.begins[p // LANES + 1]):
+            q = lists.near[c]
+            if (lists.hears[c] >> (p % LANES)) & 1 != 0 and alive[order[q]] > 0.0:
+                _join(part, order[p], order[q])
                 among[q] = p * most + count
                 pairs[count] = 0
                 count += 1
-        for slot in range(lists.heard[block, lane]):
-            q = slots[block, slot, lane]
-            one = among[q] - p * most
-            if one >= 0:
-                for other_slot in range(lists.heard[q // LANES, q % LANES]):
-                    other = among[slots[q // LANES, other_slot, q % LANES]] - p * most
-                    if other >= 0:
-                        pairs[one, other >> 5] |= 1 << (other & 31)
-                        pairs[other, one >> 5] |= 1 << (one & 31)
+        for c in range(lists.begins[p // LANES], lists.begins[p // LANES + 1]):
+            one = among[lists.near[c]] - p * most
+            if (lists.hears[c] >> (p % LANES)) & 1 != 0 and one >= 0:
+                _join_pairs(lists, lists.near[c], among, p * most, pairs, one)
         ends = 0
         for one in range(count):
             for word in range(pairs.shape[1]):
                 ends += bits_of(pairs[one, word])
-        clustering[cells.order[p]] = ends / (count * (count - 1)) if count > 1 else 0.0
+        clustering[order[p]] = ends / (count * (count - 1)) if count > 1 else 0.0
     total = 0.0
     for i in range(agents):  # in this order for the last bit
         total += clustering[i]
     return total
+
+
+@kernel
+def _join_pairs(lists, q, among, first, pairs, one):
+    """Note in `pairs` which of those numbered from `first` on the agent at place q hears: it is number `one`."""
+    for c in range(lists.begins[q // LANES], lists.begins[q // LANES + 1]):
+        other = among[lists.near[c]] - first
+        if (lists.hears[c] >> (q % LANES)) & 1 != 0 and other >= 0:
+            pairs[one, other >> 5] |= 1 << (other & 31)
+            pairs[other, one >> 5] |= 1 << (one & 31)
 
 
 @kernel

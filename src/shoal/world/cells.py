@@ -20,7 +20,7 @@ _SAMPLE = 64  # agents whose reach decides how large cells are
 class Cells(NamedTuple):
     """A grid over the places that reports say. All arrays are scratch, filled anew in each step.
 
-    order : (P,) agents, cell by cell, ascending within one; rows of cells follow each other
+    order : (P,) agents, cell by cell, ascending within one; cells follow each other row by row, there and back
     place : (P,) where each agent is in `order`
     x, y : (P,) what their reports say [m], in `order`; NaN of those whom nobody can hear
     own_x, own_y : (P,) where they believe to be [m], in `order`
@@ -64,7 +64,7 @@ def put_into_cells(cells, reports, swarm, reach, agents):
     for each in range(used + 2):
         begins[each] = 0
     for i in range(agents):
-        inside = row_of(grid, reports.y[i]) * columns + column_of(grid, reports.x[i])
+        inside = _cell(grid, row_of(grid, reports.y[i]), column_of(grid, reports.x[i]))
         cell[i] = inside
         begins[inside + 2] += 1
     for each in range(2, used + 2):
@@ -118,16 +118,24 @@ def row_of(grid, y):
 
 
 @kernel
-def span(cells, x, y, radius, row):
-    """Where in cells.order those of a row begin and end that may be within a radius of a place."""
+def _cell(grid, row, column):
+    """The number of a cell: they follow each other like a snake, so that the end of a row is near where the next begins."""
+    columns = int(grid[4])
+    return row * columns + (column if row % 2 == 0 else columns - 1 - column)
+
+
+@kernel
+def span(cells, left, right, bottom, top, radius, row):
+    """Where in cells.order those of a row begin and end that may be within a radius of a box [m]."""
     grid = cells.grid
-    columns, high = int(grid[4]), 1.0 / grid[3]
-    under = grid[1] + row * high - y if row > 0 else -np.inf
-    over = y - (grid[1] + (row + 1) * high) if row < int(grid[5]) - 1 else -np.inf
+    high = 1.0 / grid[3]
+    under = grid[1] + row * high - top if row > 0 else -np.inf
+    over = bottom - (grid[1] + (row + 1) * high) if row < int(grid[5]) - 1 else -np.inf
     away = max(max(under, over) - _SLACK * high, 0.0)
     half = math.sqrt(max(radius * radius - away * away, 0.0))
-    first, last = column_of(grid, x - half), column_of(grid, x + half)
-    return int(cells.begins[row * columns + first]), int(cells.begins[row * columns + last + 1])
+    one = _cell(grid, row, column_of(grid, left - half))
+    other = _cell(grid, row, column_of(grid, right + half))
+    return int(cells.begins[min(one, other)]), int(cells.begins[max(one, other) + 1])
 
 
 @kernel

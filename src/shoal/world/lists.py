@@ -1,7 +1,8 @@
-"""Who hears whom where there are many: a list of the k nearest of each agent, found in the cells around it.
+"""Who hears whom where there are many: for every few agents that lie together, whom any of them hears.
 
-The links are those of neighbors.py, ties included: of those equally far, the lower index. Lists are ascending, so that
-sums over them have the same bits as sums over all agents, to which those not heard add nothing.
+The links are those of neighbors.py, ties included: of those equally far, the lower index. What is near a block of
+agents is found in the cells around it (cells.py), and sorted by index, so that sums have the same bits as sums over all
+agents, to which those not heard add nothing. Then the nearest are found as among few agents, by lanes (nearest.py).
 """
 
 import math
@@ -10,54 +11,73 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from shoal.compiler.kernel import kernel
+from shoal.compiler.lanes import WIDTH, any_of, counting, either, everywhere, larger, put, smaller, take, truths
 from shoal.core.agents import aligned_zeros
 from shoal.core.draws import split, uniform
 from shoal.world.cells import Cells, new_cells, put_into_cells, row_of, span
+from shoal.world.crowds import search_one
+from shoal.world.nearest import count_within, reach_of, settle_tie
 
-VECTOR = 32  # a multiple of what a processor compares at once
-LANES = 16  # agents whose lists lie together, and who listen together
-_MORE = 1.5  # agents to look for besides the k, so that they are among them in most steps
-_LAST = np.int32(2**31 - 1)
+LANES = WIDTH  # agents of a block; the last one may have fewer
+_PATIENCE = 24  # looks around a block before its agents are searched for one by one
 _SLACK = 1e-9  # of a reach: rounding of edges of cells
+_AHEAD = 1.15  # a block is looked around as far as its agents heard in the last step, and this much more (of squares)
 
 
 class Lists(NamedTuple):
     """The neighbors of agents in the order of their cells; P of them, padded to whole blocks of LANES.
 
     cells : who is where
-    slots : (P / LANES, K, LANES) whom each hears, as places in cells.order, ascending by index; itself in those unused
-    heard : (P / LANES, LANES) how many each hears
-    rank : as slots: how many of those heard are nearer; no blocks where the strategy does not ask
+    begins : (P / LANES + 1,) where the neighbors of each block begin
+    near : (M,) those whom any agent of a block hears, as places in cells.order, ascending by index
+    hears : (M,) which agents of the block hear them: a bit per lane
+    rank : (M, LANES) how many of those that an agent hears are nearer; no rows where the strategy does not ask
     leads : (P,) 1 where an agent may lead, as places in cells.order
-    found, distance : (R,) scratch of one search: places in cells.order, squares of distances [m^2]
-    ids, sorted : (R,) scratch of a sort
+    most : the most neighbors that an agent has
+    found, ids, sorted, distance : (R,) scratch of a search: places in cells.order, indices, the places by index, squares
+        of distances [m^2]; square : (R, LANES) of all agents of a block
+    wanted, reach, limit, true_x, true_y : (LANES,) of the agents of a block: k, how far they hear, how far around them
+        is looked [m^2], where they are [m]
     """
 
     cells: Cells
-    slots: np.ndarray
-    heard: np.ndarray
+    begins: np.ndarray
+    near: np.ndarray
+    hears: np.ndarray
     rank: np.ndarray
     leads: np.ndarray
+    most: int
     found: np.ndarray
-    distance: np.ndarray
     ids: np.ndarray
     sorted: np.ndarray
+    distance: np.ndarray
+    square: np.ndarray
+    wanted: np.ndarray
+    reach: np.ndarray
+    limit: np.ndarray
+    true_x: np.ndarray
+    true_y: np.ndarray
 
 
 def new_lists(agents: int, most: int, ranked: bool) -> Lists:
     """Return lists of up to `most` neighbors of so many agents."""
     blocks = -(-agents // LANES)
-    room = VECTOR * (-(-2 * most // VECTOR) + 2) if agents else 0
+    kept = blocks * min(LANES * most, agents) + 1  # memory that is never written to costs nothing
+    room = LANES * -(-max(6 * most + 256, LANES * most) // LANES) if agents else 0
     return Lists(
         new_cells(LANES * blocks),
-        np.zeros((blocks, most, LANES), np.int32),
-        np.zeros((blocks, LANES), np.int32),
-        np.zeros((blocks if ranked else 0, most, LANES), np.int32),
+        np.zeros(blocks + 1, np.int64),
+        np.zeros(kept, np.int32),
+        np.zeros(kept, np.uint8),
+        np.zeros((kept if ranked else 0, LANES), np.int64),
         np.zeros(LANES * blocks, np.uint8),
+        most,
         np.zeros(room, np.int32),
         aligned_zeros(room),
         np.zeros(room, np.int32),
-        np.zeros(room, np.int32),
+        aligned_zeros(room),
+        aligned_zeros(room * LANES).reshape((room, LANES)),
+        *(aligned_zeros(LANES) for _ in range(5)),
     )
 
 
@@ -82,211 +102,294 @@ def list_nearest(links, reports, swarm, reception, agents):
     for i in range(agents):
         if links.silent[i]:
             lists.cells.x[lists.cells.place[i]] = np.nan  # nearest to nobody
-    for p in range(agents):
-        i = lists.cells.order[p]
-        count = _search(lists, p, links.wanted[i], links.reach, reception, swarm)
-        count = _lose(lists, count, i, reception)
-        _write(lists, p, count)
-        links.heard[i] = count
+    end = 0
+    for block in range(lists.begins.size - 1):
+        lists.begins[block] = end
+        end = _list_block(lists, links, LANES * block, min(LANES * block + LANES, agents), end, reception, swarm)
+    lists.begins[lists.begins.size - 1] = end
 
 
 @kernel
-def _search(lists, p, k, reach, reception, swarm):
-    """Put the k nearest of the agent at place p into lists.found, or all that it can hear; return how many."""
-    cells = lists.cells
-    i = cells.order[p]
-    if k <= 0:
-        return 0
-    limit = reach[i]
-    said_x = cells.x[p]
-    cells.x[p] = np.nan  # nobody hears itself
-    while True:
-        limit = limit if reception.by_truth else min(limit, reception.range_square)
-        count = _look_around(lists, p, k, limit, reception, swarm)
-        everywhere = limit >= reception.range_square and not reception.by_truth
-        if count >= k or everywhere or _covers(cells, p, limit):
-            break
-        limit *= max(1.5, min(16.0, (k + 2.0) / (count + 1.0)))
-    cells.x[p] = said_x
-    if count >= k:
-        reach[i] = max(limit * ((k + _MORE) / count), 1e-300)
-    return _keep_nearest(lists, count, k)
+def _list_block(lists, links, p, last, end, reception, swarm):
+    """Find the neighbors of the agents at places p..last; return where those of the next block begin."""
+    _begin_block(lists, links, p, last, swarm)
+    wanted = take(lists.wanted, 0, everywhere(0.0))
+    guess = take(lists.reach, 0, wanted)
+    limit = _AHEAD * guess
+    farthest_of_all = _extent(lists.cells, p, last)
+    for attempt in range(_PATIENCE):
+        limit = limit if reception.by_truth else smaller(limit, reception.range_square)
+        put(lists.limit, 0, limit)
+        count = _look_around(lists, p, last)
+        if count > lists.found.size - LANES:
+            limit = 0.25 * limit
+            continue
+        _sort(lists, count)
+        _measure(lists, p, count, reception, swarm)
+        reach = reach_of(lists.square, count, 0, wanted, guess)
+        reach = either(wanted > 0.0, reach, -1.0)
+        heard, farthest, beyond = count_within(lists.square, count, 0, reach, 0.0 * wanted)
+        put(lists.reach, 0, reach)
+        if any_of((heard > wanted) | ((heard < wanted) & (beyond < np.inf))):
+            _settle(lists, count, last - p)
+            reach = take(lists.reach, 0, wanted)
+            heard, farthest, beyond = count_within(lists.square, count, 0, reach, 0.0 * wanted)
+        partial = limit < farthest_of_all
+        partial = partial if reception.by_truth else partial & (limit < reception.range_square)
+        short, blind = heard < wanted, farthest > limit
+        if not any_of((short | blind) & partial):
+            return _keep(lists, links, p, last, count, end, reception)
+        growth = larger(1.5, smaller(16.0, (wanted + 2.0) / (heard + 1.0)))
+        limit = either(short & partial, limit * growth, limit)
+        limit = either(blind & partial, farthest, limit)
+    return _list_crowd(lists, links, p, last, end, reception, swarm)
 
 
 @kernel
-def _covers(cells, p, limit):
-    """Whether all agents are nearer than the root of `limit` to the one at place p."""
+def _begin_block(lists, links, p, last, swarm):
+    """What the agents at places p..last want, and how far they heard in the last step; lanes besides want nothing."""
+    order = lists.cells.order
+    for lane in range(LANES):
+        lists.wanted[lane], lists.reach[lane] = 0.0, -1.0
+    for lane in range(last - p):
+        i = order[p + lane]
+        lists.true_x[lane], lists.true_y[lane] = swarm.x[i], swarm.y[i]
+        if links.wanted[i] > 0:
+            lists.wanted[lane], lists.reach[lane] = links.wanted[i], links.reach[i]
+
+
+@kernel
+def _box(cells, p, last):
+    """The box [m] around where the agents at places p..last believe to be; those that are nowhere aside."""
+    left, right, bottom, top = np.inf, -np.inf, np.inf, -np.inf
+    for each in range(p, last):
+        x, y = cells.own_x[each], cells.own_y[each]
+        left, right = min(left, x), max(right, x)
+        bottom, top = min(bottom, y), max(top, y)
+    return left, right, bottom, top
+
+
+@kernel
+def _extent(cells, p, last):
+    """A square [m^2] that no distance between these and any agent exceeds."""
     grid = cells.grid
-    x, y = cells.own_x[p], cells.own_y[p]
-    right, top = grid[0] + grid[4] / grid[2], grid[1] + grid[5] / grid[3]
-    dx, dy = max(abs(x - grid[0]), abs(x - right)), max(abs(y - grid[1]), abs(y - top))
-    return not limit < 1.01 * (dx * dx + dy * dy)  # of an agent that is nowhere, too
+    left, right, bottom, top = _box(cells, p, last)
+    wide = max(right - grid[0], grid[0] + grid[4] / grid[2] - left)
+    high = max(top - grid[1], grid[1] + grid[5] / grid[3] - bottom)
+    return 1.01 * (wide * wide + high * high)
 
 
 @kernel
-def _look_around(lists, p, k, limit, reception, swarm):
-    """Put all within the root of `limit` of the agent at place p into lists.found; of too many, the k nearest at least.
+def _look_around(lists, p, last):
+    """Put all that are within lists.limit of any of the agents at places p..last into lists.found, as places.
 
-    Goes by rows of cells, in each as far as the circle does.
+    Returns how many; more than lists.found.size - LANES: not all, there is no room.
     """
-    cells, found, distance = lists.cells, lists.found, lists.distance
+    cells, found = lists.cells, lists.found
     grid = cells.grid
-    x, y = cells.own_x[p], cells.own_y[p]
-    radius = math.sqrt(limit) * (1.0 + _SLACK)
-    count = 0
-    row, last = row_of(grid, y - radius), row_of(grid, y + radius)
-    next_begin, next_end = span(cells, x, y, radius, row)
-    while row <= last:
-        begin, end = next_begin, next_end
-        row += 1
-        if row <= last:
-            next_begin, next_end = span(cells, x, y, radius, row)  # now: a processor works on both at once
+    farthest = -1.0
+    for lane in range(last - p):
+        farthest = max(farthest, lists.limit[lane])
+    if farthest < 0.0:
+        return 0
+    radius = math.sqrt(farthest) * (1.0 + _SLACK)
+    left, right, bottom, top = _box(cells, p, last)
+    limit = take(lists.limit, 0, everywhere(0.0))
+    own_x, own_y = take(cells.own_x, p, limit), take(cells.own_y, p, limit)
+    room, count = found.size - LANES, 0
+    for row in range(row_of(grid, bottom - radius), row_of(grid, top + radius) + 1):
+        begin, end = span(cells, left, right, bottom, top, radius, row)
         while begin < end:
-            if count == found.size:
-                count = _hear(lists, p, count, reception, swarm)
-                count = _keep_nearest(lists, count, k)
-                if count == k:
-                    limit = 0.0
-                    for n in range(count):
-                        limit = max(limit, distance[n])
-            stop = min(end, begin + found.size - count)
+            if count > room:
+                return count
+            stop = min(end, begin + room + 1 - count)
             for q in range(begin, stop):
-                dx = x - cells.x[q & _INDEX]
-                dy = y - cells.y[q & _INDEX]
-                square = dx * dx + dy * dy
-                distance[count & _INDEX] = square
-                found[count & _INDEX] = q
-                count += 1 if square <= limit else 0
+                dx, dy = own_x - cells.x[q], own_y - cells.y[q]
+                found[count] = q
+                count += 1 if any_of(dx * dx + dy * dy <= limit) else 0
             begin = stop
-    return _hear(lists, p, count, reception, swarm)
-
-
-_INDEX = (1 << 32) - 1  # tells the compiler that an index is not negative
-
-
-@kernel
-def _hear(lists, p, count, reception, swarm):
-    """Leave out of `count` found those out of range where reports do not say quite where agents are."""
-    if not reception.by_truth:
-        return count
-    found, distance, order = lists.found, lists.distance, lists.cells.order
-    x, y = swarm.x[order[p]], swarm.y[order[p]]
-    kept = 0
-    for n in range(count):
-        j = order[found[n]]
-        dx, dy = swarm.x[j] - x, swarm.y[j] - y
-        found[kept], distance[kept] = found[n], distance[n]
-        kept += 1 if dx * dx + dy * dy <= reception.range_square else 0
-    return kept
-
-
-@kernel
-def _keep_nearest(lists, count, k):
-    """Keep the k nearest of `count` found, of those equally far the lower index; return how many there are."""
-    found, distance, order = lists.found, lists.distance, lists.cells.order
-    while count > k:
-        farthest, farthest_odd = distance[0], distance[count - 1]
-        for n in range(0, count - 1, 2):  # two chains, no branches
-            d, odd = distance[n], distance[n + 1]
-            farthest = d if d > farthest else farthest
-            farthest_odd = odd if odd > farthest_odd else farthest_odd
-        farthest = max(farthest, farthest_odd)
-        worst, equal = 0, 0
-        for n in range(count):
-            worst = n if distance[n] == farthest else worst
-            equal += 1 if distance[n] == farthest else 0
-        if equal > 1:
-            for n in range(count):
-                if distance[n] == farthest and order[found[n]] > order[found[worst]]:
-                    worst = n
-        count -= 1
-        found[worst & _INDEX], distance[worst & _INDEX] = found[count & _INDEX], distance[count & _INDEX]
     return count
 
 
 @kernel
-def _lose(lists, count, i, reception):
-    """Leave out of `count` found whose report to agent i is lost."""
-    if reception.loss <= 0.0:
-        return count
-    found, distance, order = lists.found, lists.distance, lists.cells.order
-    kept = 0
+def _sort(lists, count):
+    """Put the first `count` places found into lists.sorted, ascending by the index of who is there."""
+    found, ids, order, zero = lists.found, lists.ids, lists.cells.order, everywhere(0.0)
     for n in range(count):
-        found[kept], distance[kept] = found[n], distance[n]
-        lost = uniform(split(reception.key, _LOSS + order[found[n]]), i) < reception.loss
-        kept += 0 if lost else 1
+        ids[n] = order[found[n]]
+    for n in range(count, count + LANES):
+        ids[n] = np.inf
+    for first in range(0, count, LANES):
+        mine, before = take(ids, first, zero), zero
+        for n in range(count):
+            before = either(ids[n] < mine, before + 1.0, before)
+        put(lists.distance, 0, before)
+        for n in range(first, min(first + LANES, count)):
+            lists.sorted[int(lists.distance[n - first])] = found[n]
+
+
+@kernel
+def _measure(lists, p, count, reception, swarm):
+    """Set lists.square of all found to the agents of a block; NaN of oneself, and of those out of range."""
+    cells, lane, none = lists.cells, counting(p), everywhere(0.0)
+    own_x, own_y = take(cells.own_x, p, none), take(cells.own_y, p, none)
+    true_x, true_y = take(lists.true_x, 0, none), take(lists.true_y, 0, none)
+    for c in range(count):
+        q = lists.sorted[c]
+        dx, dy = own_x - cells.x[q], own_y - cells.y[q]
+        square = dx * dx + dy * dy
+        far = square
+        if reception.by_truth:
+            j = cells.order[q]
+            far_x, far_y = swarm.x[j] - true_x, swarm.y[j] - true_y
+            far = far_x * far_x + far_y * far_y
+        put(lists.square, (c, 0), either((far <= reception.range_square) & (lane != q), square, np.nan))
+
+
+@kernel
+def _settle(lists, count, lanes):
+    """Settle ties of agents at the same distance."""
+    for lane in range(lanes):
+        if lists.wanted[lane] > 0.0:
+            k = int(lists.wanted[lane])
+            lists.reach[lane] = settle_tie(lists.square, count, lane, k, lists.reach[lane])
+
+
+@kernel
+def _keep(lists, links, p, last, count, end, reception):
+    """Keep whom the agents at places p..last hear, of `count` sorted; return where those of the next block begin."""
+    kept, reach = end, take(lists.reach, 0, everywhere(0.0))
+    for c in range(count):
+        square = take(lists.square, (c, 0), reach)
+        hears = truths(square <= reach)
+        if reception.loss > 0.0:
+            hears = _left(lists.cells.order, hears, p, last, lists.sorted[c], reception)
+        lists.near[kept], lists.hears[kept] = lists.sorted[c], hears
+        put(lists.square, (kept - end, 0), square)  # of those kept, for their ranks
+        kept += 1 if hears != 0 else 0
+    for lane in range(last - p):
+        i = lists.cells.order[p + lane]
+        heard = 0
+        for c in range(end, kept):
+            heard += (lists.hears[c] >> lane) & 1
+        links.heard[i] = heard
+        if lists.reach[lane] < np.inf:
+            links.reach[i] = max(lists.reach[lane], 1e-300)
+        if lists.rank.shape[0] > 0:
+            _rank(lists, end, kept, lane)
     return kept
+
+
+@kernel
+def _left(order, hears, p, last, q, reception):
+    """Those of the agents at places p..last who hear the one at place q, as bits, without those to whom it is lost."""
+    left = 0
+    for lane in range(last - p):
+        lost = uniform(split(reception.key, _LOSS + order[q]), order[p + lane]) < reception.loss
+        left |= 0 if lost else hears & (1 << lane)
+    return left
 
 
 _LOSS = 1 << 33  # the stream of world/radio.py
 
 
 @kernel
-def _write(lists, p, count):
-    """Write the first `count` found into the slots of place p, ascending by index."""
-    found, ids, ascending, order = lists.found, lists.ids, lists.sorted, lists.cells.order
-    block, lane = p // LANES, p % LANES
-    slots = lists.slots[block]
-    whole = (count + VECTOR - 1) // VECTOR * VECTOR
-    for n in range(count):
-        ids[n] = order[found[n]]
-    for n in range(count, whole):
-        ids[n] = _LAST
-    for n in range(count):
-        mine = ids[n]
-        before = np.int32(0)
-        for m in range(whole):  # no branches: a sort by counting
-            before = np.int32(before + (1 if ids[m] < mine else 0))
-        ascending[n] = before
-        slots[before, lane] = found[n]
-    for n in range(count, slots.shape[0]):
-        slots[n, lane] = p
-    lists.heard[block, lane] = count
-    if lists.rank.shape[0] > 0:
-        _rank(lists, block, lane, count)
+def _rank(lists, begin, end, lane):
+    """Say of each that an agent hears how many are nearer, of those equally far the lower index first."""
+    for c in range(begin, end):
+        nearer = 0
+        mine = lists.square[c - begin, lane]
+        for other in range(begin, end):
+            square = lists.square[other - begin, lane]
+            is_nearer = square < mine or (square == mine and other < c)
+            nearer += 1 if is_nearer and (lists.hears[other] >> lane) & 1 else 0
+        lists.rank[c, lane] = nearer
 
 
 @kernel
-def _rank(lists, block, lane, count):
-    """Say of each found how many are nearer, of those equally far the lower index first; lists.sorted has its slot."""
-    distance, ids = lists.distance, lists.ids
+def _list_crowd(lists, links, p, last, end, reception, swarm):
+    """As _list_block, agent by agent: for heaps of agents, of whom there are more near than there is room for."""
+    order, count = lists.cells.order, 0
+    for lane in range(last - p):
+        i = order[p + lane]
+        found = search_one(lists, p + lane, links.wanted[i], links.reach, reception, swarm)
+        links.heard[i] = 0
+        for n in range(found):
+            q = lists.found[n]
+            if reception.loss <= 0.0 or _left(order, 1, p + lane, p + lane + 1, q, reception) != 0:
+                lists.sorted[count], lists.ids[count] = q, order[q]
+                lists.square[count, 0], lists.square[count, 1] = lane, lists.distance[n]
+                links.heard[i] += 1
+                count += 1
+    kept, previous = end, -1
+    for _ in range(count):
+        least = 0
+        for n in range(count):
+            least = n if lists.ids[n] < lists.ids[least] else least
+        q, lane = lists.sorted[least], int(lists.square[least, 0])
+        if order[q] != previous:
+            previous = order[q]
+            lists.near[kept], lists.hears[kept] = q, 0
+            kept += 1
+        lists.hears[kept - 1] |= 1 << lane
+        lists.ids[least] = np.inf
+        if lists.rank.shape[0] > 0:
+            lists.rank[kept - 1, lane] = _rank_in_crowd(lists, least, count)
+    return kept
+
+
+@kernel
+def _rank_in_crowd(lists, one, count):
+    """How many of `count` found by the same agent are nearer than this one."""
+    lane, mine, i = lists.square[one, 0], lists.square[one, 1], lists.cells.order[lists.sorted[one]]
+    nearer = 0
     for n in range(count):
-        nearer = 0
-        for m in range(count):
-            nearer += distance[m] < distance[n] or (distance[m] == distance[n] and ids[m] < ids[n])
-        lists.rank[block, lists.sorted[n], lane] = nearer
+        square = lists.square[n, 1]
+        is_nearer = square < mine or (square == mine and lists.cells.order[lists.sorted[n]] < i)
+        nearer += 1 if is_nearer and lists.square[n, 0] == lane else 0
+    return nearer
 
 
 @kernel
 def heard_of(lists, i, slot):
-    """Whom agent i hears in a slot."""
+    """Whom agent i hears as number `slot`, from 0, ascending; -1 where there are fewer."""
     p = lists.cells.place[i]
-    return lists.cells.order[lists.slots[p // LANES, slot, p % LANES]]
-
-
-@kernel
-def count_of(lists, i):
-    """How many agent i hears."""
-    p = lists.cells.place[i]
-    return lists.heard[p // LANES, p % LANES]
+    block, lane = p // LANES, p % LANES
+    for c in range(lists.begins[block], lists.begins[block + 1]):
+        slot -= (lists.hears[c] >> lane) & 1
+        if slot < 0:
+            return int(lists.cells.order[lists.near[c]])
+    return -1
 
 
 @kernel
 def is_listed(lists, j, i):
     """Whether agent i hears j: a search by halves."""
-    p = lists.cells.place[i]
-    order, block, lane = lists.cells.order, lists.slots[p // LANES], p % LANES
-    low, high = 0, lists.heard[p // LANES, lane]
+    p, order, near = lists.cells.place[i], lists.cells.order, lists.near
+    block, lane = p // LANES, p % LANES
+    low, high = lists.begins[block], lists.begins[block + 1]
+    last = high
     while low < high:
         middle = (low + high) // 2
-        if order[block[middle, lane]] < j:
+        if order[near[middle]] < j:
             low = middle + 1
         else:
             high = middle
-    return low < lists.heard[p // LANES, lane] and order[block[low, lane]] == j
+    return low < last and order[near[low]] == j and (lists.hears[low] >> lane) & 1 != 0
 
 
 @kernel
 def note_leader(lists, j, leads):
     """Note whether agent j may lead; not in the kernel that asks, see the trap in compiler/kernel.py."""
     lists.leads[lists.cells.place[j]] = 1 if leads else 0
+
+
+@kernel
+def note_contact(lists, reports, contact, agents):
+    """Set contact[i] to 1 where agent i hears somebody on target."""
+    order = lists.cells.order
+    for block in range(lists.begins.size - 1):
+        for c in range(lists.begins[block], lists.begins[block + 1]):
+            if reports.on_target[order[lists.near[c]]]:
+                for p in range(LANES * block, min(LANES * block + LANES, agents)):
+                    contact[order[p]] |= (lists.hears[c] >> (p % LANES)) & 1

@@ -10,12 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from shoal.compiler.kernel import kernel
-from shoal.compiler.lanes import WIDTH, any_of, either, everywhere, put, take
+from shoal.compiler.lanes import WIDTH, any_of, everywhere, put, take
 from shoal.core.agents import aligned_zeros
 from shoal.world.lists import Lists, is_listed, new_lists
-
-ROUNDS = 40
-_BELOW = 1.0 - 2.0**-52
+from shoal.world.nearest import reach_of, settle_tie
 
 
 class Links(NamedTuple):
@@ -117,49 +115,12 @@ def link_nearest(links, agents):
 
 @kernel
 def _set_reach(links, i, none, agents):
-    """Set the reach of the listeners from i on, of as many as `none` has lanes.
-
-    A reach steps over the one speaker by which it is off; where it is off by more, it is estimated: counts grow like
-    the square of the distance. An estimate stays inside the bracket found so far, which is bisected after a few rounds.
-    """
+    """Set the reach of the listeners from i on, of as many as `none` has lanes."""
     wanted = take(links.wanted, i, none) + none
-    if not any_of(wanted < agents - 1.0):
+    if any_of(wanted < agents - 1.0):
+        put(links.reach, i, reach_of(links.square, links.square.shape[0], i, wanted, take(links.reach, i, none)))
+    else:
         put(links.reach, i, none + _FARTHEST)
-        return
-    reach = take(links.reach, i, none)
-    low, high = none, none + _FARTHEST
-    for attempt in range(ROUNDS):
-        heard, below, above = _count(links.square, reach, i, none)
-        low = either(heard < wanted, above, low)
-        high = either(heard > wanted, below, high)
-        stepped = either(heard < wanted, above, below * _BELOW)
-        middle = 0.5 * (below + min(above, 4.0 * below))
-        reach = either(heard == wanted, middle, stepped)
-        missing = wanted - heard
-        far_off = (missing * missing > 1.0) & (low < high)
-        if not any_of(far_off):
-            break
-        fewer, more = low * ((wanted + 0.5) / (heard + 1.5)), high * ((wanted + 0.5) / (heard - 0.5))
-        guess = either(heard < wanted, fewer, more)
-        half = 0.5 * (low + min(high, 4.0 * low))
-        if attempt > 3:
-            guess = half
-        guess = either((guess < low) | (guess >= high), half, guess)
-        reach = either(far_off, guess, reach)
-    put(links.reach, i, reach)
-
-
-@kernel
-def _count(square, reach, i, none):
-    """How many speakers are within reach of the listeners from i on; the farthest of them, the nearest beyond."""
-    heard, below, above = none, none, none + np.inf
-    for j in range(square.shape[0]):
-        d = take(square, (j, i), none)
-        inside = d <= reach
-        heard = either(inside, heard + 1.0, heard)
-        below = max(below, either(inside, d, 0.0))
-        above = min(above, either(inside, np.inf, d))
-    return heard, below, above
 
 
 @kernel
@@ -178,51 +139,12 @@ def settle_ties(links, agents):
     corrected = False
     for i in range(links.reach.size):
         if links.heard[i] != min(links.wanted[i], agents):
-            _settle_tie(links, i, links.wanted[i], agents)
+            links.reach[i] = settle_tie(links.square, agents, i, links.wanted[i], links.reach[i])
             corrected = True
     return corrected
 
 
 _FARTHEST = 1e300
-
-
-@kernel
-def _settle_tie(links, i, k, agents):
-    """Move listener i's reach to its k-th distance; of those at it, put the surplus out, highest indices first."""
-    square = links.square
-    reach = links.reach[i]
-    while True:
-        within = 0
-        equal = 0
-        farthest = -1.0
-        second = -1.0
-        beyond = np.inf
-        for j in range(agents):
-            d = square[j, i]
-            if d > reach:
-                beyond = min(beyond, d)
-                continue
-            within += 1
-            if d > farthest:
-                second = farthest
-                farthest = d
-                equal = 1
-            elif d == farthest:
-                equal += 1
-            elif d > second:
-                second = d
-        if within < k and beyond < np.inf:
-            reach = beyond
-        elif within - equal >= k and second >= 0.0:  # it is below zero where distances are NaN
-            reach = second
-        else:
-            break
-    links.reach[i] = reach
-    surplus = within - k
-    for j in range(agents - 1, -1, -1):
-        if surplus > 0 and square[j, i] == farthest:
-            square[j, i] = np.inf
-            surplus -= 1
 
 
 @kernel

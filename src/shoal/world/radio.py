@@ -8,7 +8,7 @@ import numpy.typing as npt
 from shoal.compiler.kernel import kernel
 from shoal.core.agents import Floats, both, width
 from shoal.core.draws import split, uniform
-from shoal.world.lists import count_of, heard_of
+from shoal.world.lists import note_contact
 from shoal.world.neighbors import within
 
 _LOSS = 1 << 33  # a stream of keys that neither agents nor targets draw from
@@ -259,9 +259,7 @@ def adapt_degree(swarm, radio, links, reports, first, last, world):
             for i in range(last - first):
                 contact[i] |= 1 if within(links, j, i) else 0
     if links.silent.size > 0:
-        for i in range(first, last):
-            for slot in range(count_of(links.lists, i)):
-                contact[i] |= 1 if reports.on_target[heard_of(links.lists, i, slot)] else 0
+        note_contact(links.lists, reports, contact, last)
     weight = min(1.0, world.time_step / radio.patience)
     for i in range(first, last):
         if swarm.alive[i] > 0.0:
