@@ -21,9 +21,10 @@ def links_of(x, y, neighbors, reach, first=0, lanes=None):
     listener_x, listener_y = np.full(lanes, 8.5), np.full(lanes, 8.5)
     listener_x[: agents - first], listener_y[: agents - first] = x[first : first + lanes], y[first : first + lanes]
     measure_distances(links, x, y, listener_x, listener_y, first, agents)
-    link_nearest(links, k, agents)
+    links.wanted[:] = k
+    link_nearest(links, agents)
     links.heard[:] = (links.square <= links.reach).sum(axis=0)
-    settle_ties(links, k, agents)
+    settle_ties(links, agents)
     return (links.square <= links.reach)[:agents]
 
 
@@ -134,12 +135,12 @@ class TestTies:
     def test_nothing_is_mended_where_nothing_is_tied(self):
         x, y = np.random.default_rng(0).uniform(-10, 10, (2, 20))
         links = new_links(20, 20)
-        k = np.full(20, 6)
         measure_distances(links, x, y, x, y, 0, 20)
-        link_nearest(links, k, 20)
+        links.wanted[:] = 6
+        link_nearest(links, 20)
         links.heard[:] = (links.square <= links.reach).sum(axis=0)
         assert links.heard.tolist() == [6] * 20
-        assert not settle_ties(links, k, 20)
+        assert not settle_ties(links, 20)
 
 
 class TestRanks:

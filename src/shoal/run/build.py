@@ -59,7 +59,7 @@ def build_world(scenario: Scenario, sea: Sea) -> World:
     )
 
 
-FEWEST_LISTED = 300  # agents from which on lists of neighbors are faster than the distances of all pairs
+FEWEST_LISTED = 150  # agents from which on lists of neighbors are faster than the distances of all pairs
 MOST_MEASURED = 10_000  # agents of which the distances of all pairs are kept: 800 MB
 
 
