@@ -94,7 +94,7 @@ class TestFormat2:
         today = simulate(load(kept.scenario), runs=2, every=1)  # with the lengths of its strategy, which it spells out
         frames, now = kept.trajectories[0], today.trajectories[0]
         for name in ("x", "engaged", "neighbors"):
-            assert np.array_equal(getattr(frames, name), getattr(now, name)), name
+            np.testing.assert_allclose(getattr(frames, name), getattr(now, name), rtol=1e-9, err_msg=name)
         for name, values in today.roster._asdict().items():
             assert np.array_equal(getattr(kept.roster, name), values), name
 

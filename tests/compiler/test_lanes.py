@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from shoal.compiler.kernel import can_compile, entry_kernel, kernel
-from shoal.compiler.late import load
 from shoal.compiler.lanes import (
     WIDTH,
     any_of,
@@ -23,6 +22,7 @@ from shoal.compiler.lanes import (
     take,
     truths,
 )
+from shoal.compiler.late import load
 
 RANDOM = np.random.default_rng(12)
 ODD = [0.0, -0.0, 1.0, -1.0, np.inf, -np.inf, np.nan, 5e-324]

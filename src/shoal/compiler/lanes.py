@@ -98,7 +98,7 @@ def any_of(mask: Any) -> Any:
 
 
 def _say(numba: Any) -> None:
-    import shoal.compiler.vectors
+    pass
 
 
 when_loaded(_say)

@@ -40,6 +40,9 @@ _TYPE: Any = types.Type  # numba has no types that mypy sees
 _MODEL: Any = models.PrimitiveModel
 _TEMPLATE: Any = AbstractTemplate
 _learn: Any = infer_global
+_signature: Any = signature
+_utilities: Any = cgutils
+_TUPLE: Any = types.BaseTuple
 _code_of: Any = lower_builtin
 _model_of: Any = register_model
 
@@ -114,7 +117,7 @@ def _teach(function: Any, kind_of: Callable[..., Any], code: Callable[..., Any],
         def generic(self, arguments: Any, keywords: Any) -> Any:
             """The signature for these arguments."""
             result = kind_of(*arguments) if len(arguments) in counts and not keywords else None
-            return None if result is None else signature(result, *arguments)
+            return None if result is None else _signature(result, *arguments)
 
     def write(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         return code(context, builder, signature.args, arguments, signature.return_type)
@@ -126,12 +129,8 @@ def _teach(function: Any, kind_of: Callable[..., Any], code: Callable[..., Any],
                 _code_of(function, *kinds)(write)
 
 
-_SHARED = {getattr(operator, name) for name in "add sub mul truediv rshift lt le gt ge eq ne and_ or_ pow neg".split()} | {
-    max,
-    min,
-    abs,
-    math.sqrt,
-}
+_OPERATORS = ("add", "sub", "mul", "truediv", "rshift", "lt", "le", "gt", "ge", "eq", "ne", "and_", "or_", "pow", "neg")
+_SHARED = {*(getattr(operator, name) for name in _OPERATORS), max, min, abs, math.sqrt}
 
 
 def _binary(symbol: Any, build: Callable[..., Any], result: Lanes | None = None, floats: bool = False) -> None:
@@ -184,7 +183,9 @@ def _logic(symbol: Any, method: str) -> None:
 
     def code(context: Any, builder: Any, kinds: Any, arguments: Any, _: Any) -> Any:
         both = zip(arguments, kinds, strict=True)
-        return getattr(builder, method)(*(each if kind is MASK else _spread(builder, each, MASK) for each, kind in both))
+        return getattr(builder, method)(
+            *(each if kind is MASK else _spread(builder, each, MASK) for each, kind in both)
+        )
 
     _teach(symbol, kind_of, code, 2)
 
@@ -202,7 +203,7 @@ def _of_llvm(function: Any, name: str, count: int, taken: Callable[..., bool]) -
     def code(context: Any, builder: Any, kinds: Any, arguments: Any, _: Any) -> Any:
         lanes = [_widened(context, builder, *each, FLOATS) for each in zip(arguments, kinds, strict=True)]
         kind = ir.FunctionType(FLOATS.vector, [FLOATS.vector] * count)
-        return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDTH}f64"), lanes)
+        return builder.call(_utilities.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDTH}f64"), lanes)
 
     _teach(function, kind_of, code, count)
 
@@ -263,13 +264,15 @@ def _as_bits(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any
 
 _teach(bits_of, lambda x: WHOLE if x is FLOATS else types.int64, _as_bits, 1)
 _teach(number_of, lambda x: FLOATS if x is WHOLE else types.float64, _as_bits, 1)
+
+
 def _extreme_of(sign: str) -> Callable[..., Any]:
     """`smaller` and `larger` of lanes, and of numbers, which become lanes for it and are one again."""
 
     def code(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
         to = _common(*kinds)
-        both = (_widened(context, builder, *each, to) for each in zip(arguments, kinds, strict=True))
-        chosen = _extreme(sign, builder, *both, to)
+        a, b = (_widened(context, builder, *each, to) for each in zip(arguments, kinds, strict=True))
+        chosen = _extreme(sign, builder, a, b, to)
         return chosen if result is to else builder.extract_element(chosen, ir.IntType(32)(0))
 
     return code
@@ -346,12 +349,12 @@ def _check(array: Any) -> Any:
 def _pointer(context: Any, builder: Any, array: Any, at: Any, arguments: Any) -> Any:
     """Where an array has the entry `at`, an index or a pair of them."""
     held = context.make_array(array)(context, builder, arguments[0])
-    if not isinstance(at, types.BaseTuple):
+    if not isinstance(at, _TUPLE):
         return builder.gep(held.data, [context.cast(builder, arguments[1], at, types.intp)])
     row, first = (
         context.cast(builder, builder.extract_value(arguments[1], n), kind, types.intp) for n, kind in enumerate(at)
     )
-    columns = cgutils.unpack_tuple(builder, held.shape)[1]
+    columns = _utilities.unpack_tuple(builder, held.shape)[1]
     return builder.gep(held.data, [builder.add(first, builder.mul(row, columns))])
 
 

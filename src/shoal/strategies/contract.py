@@ -300,9 +300,7 @@ def no_sums(zero: Any, params: Any) -> Any:
 
 def added(totals: Any, values: Any, linked: Any) -> Any:
     """The totals with what a neighbor exerts, where it is linked; all of lanes."""
-    return tuple(
-        total + either(linked, value, 0.0) for total, value in zip(totals, values, strict=True)
-    )
+    return tuple(total + either(linked, value, 0.0) for total, value in zip(totals, values, strict=True))
 
 
 def put_sums(sums: Any, i: Any, totals: Any) -> None:

@@ -33,7 +33,9 @@ def inverse_seventh(square):
     """
     inverse = number_of(_GUESS - (bits_of(square) >> 1))
     off = 1.0 - square * (inverse * inverse)
-    inverse = inverse + inverse * (off * (0.49999917 + off * (0.37605677 + off * 0.31369143)))  # least error, |off| < 0.07
+    inverse = inverse + inverse * (
+        off * (0.49999917 + off * (0.37605677 + off * 0.31369143))
+    )  # least error, |off| < 0.07
     inverse_square = inverse * inverse
     off = 1.0 - square * inverse_square
     seventh = (inverse_square * inverse_square) * (inverse_square * inverse)

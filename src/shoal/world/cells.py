@@ -119,7 +119,7 @@ def row_of(grid, y):
 
 @kernel
 def _cell(grid, row, column):
-    """The number of a cell: they follow each other like a snake, so that the end of a row is near where the next begins."""
+    """The number of a cell: a snake, so that the end of a row is near where the next one begins."""
     columns = int(grid[4])
     return row * columns + (column if row % 2 == 0 else columns - 1 - column)
 

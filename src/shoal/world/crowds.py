@@ -1,6 +1,7 @@
 """The k nearest of one agent, however many are near it: where more are than a block of agents has room for.
 
-So it is where agents are in heaps, or sit at one place. Of too many only the nearest are kept while others are looked at.
+So it is where agents are in heaps, or sit at one place. Of too many only the nearest are kept while others are looked
+at.
 """
 
 import math

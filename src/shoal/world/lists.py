@@ -34,8 +34,8 @@ class Lists(NamedTuple):
     rank : (M, LANES) how many of those that an agent hears are nearer; no rows where the strategy does not ask
     leads : (P,) 1 where an agent may lead, as places in cells.order
     most : the most neighbors that an agent has
-    found, ids, sorted, distance : (R,) scratch of a search: places in cells.order, indices, the places by index, squares
-        of distances [m^2]; square : (R, LANES) of all agents of a block
+    found, ids, sorted, distance : (R,) scratch of a search: places in cells.order, indices, the places by index,
+        squares of distances [m^2]; square : (R, LANES) of all agents of a block
     wanted, reach, limit, true_x, true_y : (LANES,) of the agents of a block: k, how far they hear, how far around them
         is looked [m^2], where they are [m]
     """
@@ -117,7 +117,7 @@ def _list_block(lists, links, p, last, end, reception, swarm):
     guess = take(lists.reach, 0, wanted)
     limit = _AHEAD * guess
     farthest_of_all = _extent(lists.cells, p, last)
-    for attempt in range(_PATIENCE):
+    for _ in range(_PATIENCE):
         limit = limit if reception.by_truth else smaller(limit, reception.range_square)
         put(lists.limit, 0, limit)
         count = _look_around(lists, p, last)

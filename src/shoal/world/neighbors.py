@@ -20,8 +20,8 @@ class Links(NamedTuple):
     """Squared distances [m^2] from speaker (row) to listener (lane), and each listener's reach; the rest is scratch.
 
     Rows are padded to an even number with infinity; an agent is infinitely far from itself. `wanted` is k of each
-    listener, or fewer where not all pairs can be linked. `rank` says how many of those heard are nearer, agents for those not
-    heard; it has no rows where the strategy does not ask.
+    listener, or fewer where not all pairs can be linked. `rank` says how many of those heard are nearer, agents for
+    those not heard; it has no rows where the strategy does not ask.
 
     Where there are many agents, `lists` says who hears whom instead, and `square` and `rank` have no rows; `silent` are
     those whom nobody can hear then.
