@@ -12,6 +12,7 @@ costs as much as the arithmetic. What numba makes of these functions is in vecto
 of numpy. A branch cannot ask for a mask: functions with one do not compile for lanes (see engine/arrivals.py).
 """
 
+from importlib import import_module
 from struct import Struct
 from typing import Any
 
@@ -98,7 +99,7 @@ def any_of(mask: Any) -> Any:
 
 
 def _say(numba: Any) -> None:
-    pass
+    import_module("shoal.compiler.vectors")
 
 
 when_loaded(_say)
