@@ -52,7 +52,7 @@ class TestReplayPage:
         assert len(frames_of(replay_page(record, frames=3))) == 3
 
     def test_very_many_agents_are_dots_in_it(self, small_page, record, monkeypatch):
-        monkeypatch.setattr("shoal.viewer.recorded.CROWD", 49)
+        monkeypatch.setattr("shoal.viewer.recorded.FULL", 49)
         frame = frames_of(replay_page(record, frames=1))[0]
         assert (len(frame.x), frame.vx) == (50, [])
 

@@ -17,7 +17,7 @@ export interface Moment {
   targetY: Float32Array;
   past: Frame[]; // close to each other, oldest first, the shown one left out
   shown: Uint32Array; // agents that get a marker, in rising order
-  crowded: boolean; // the others are too many for that, and dots
+  dotted: boolean; // the others are too many for that, and dots
 }
 
 export interface Brush {

@@ -1,7 +1,7 @@
 // One run on one canvas: which moment is shown, and drawing it. Between two frames everything glides.
 
 import { Camera } from "./camera";
-import { Crowd, inView, MARKED, reporting } from "./crowd";
+import { Dots, inView, MARKED, reporting } from "./dots";
 import { el } from "./dom";
 import { count, fixed, time } from "./format";
 import * as layers from "./layers";
@@ -46,7 +46,7 @@ export class Stage {
   private readonly moment = el("p", { class: "moment" });
   private readonly hint = el("p", { class: "hint", hidden: true });
   private readonly legend = new Legend();
-  private readonly crowd = new Crowd();
+  private readonly dots = new Dots();
   private readonly water: HTMLElement;
   private readonly scenes = new Map<number, Scene>();
   private readonly reduced = matchMedia("(prefers-reduced-motion: reduce)");
@@ -136,7 +136,7 @@ export class Stage {
     if (this.drawn.length > 240) this.drawn.splice(0, 120);
     const brush = { context, camera, theme };
     const { plot } = camera;
-    this.dotted = moment.crowded;
+    this.dotted = moment.dotted;
     const size = this.markerSize(this.dotted || frame.x.length <= MARKED ? frame.x.length : moment.shown.length);
     context.save();
     context.beginPath();
@@ -151,7 +151,7 @@ export class Stage {
       this.links = pairs.length / 2;
       layers.drawLinks(brush, moment, pairs);
     }
-    if (this.dotted) this.crowd.draw(context, camera, ratio, scene, frame, theme);
+    if (this.dotted) this.dots.draw(context, camera, ratio, scene, frame, theme);
     else if (look.trails) layers.drawTrails(brush, { ...moment, past: this.trail(moment.past) }, size);
     layers.drawTargets(brush, look.trails ? moment : { ...moment, past: [] });
     if (this.picked !== null) layers.drawPicked(brush, moment, this.picked, heardBy(frame, this.picked), size);
@@ -265,9 +265,9 @@ export class Stage {
   }
 
   /** Which agents get a marker, and whether the others are dots. */
-  private shownOf(frame: Frame, places: Pick<Frame, "x" | "y">): Pick<layers.Moment, "shown" | "crowded"> {
+  private shownOf(frame: Frame, places: Pick<Frame, "x" | "y">): Pick<layers.Moment, "shown" | "dotted"> {
     const shown = frame.x.length <= MARKED ? Uint32Array.from(frame.x.keys()) : inView(this.camera, places);
-    return { shown: shown ?? reporting(frame), crowded: shown === null };
+    return { shown: shown ?? reporting(frame), dotted: shown === null };
   }
 
   /** Frames before the shown one that lie so close that lines between them are paths. */

@@ -39,9 +39,9 @@ export class Switches {
     const agents = Math.max(...scenes.map((scene) => scene.fleets.reduce((sum, fleet) => sum + fleet.count, 0)));
     if (!this.asked) this.apply("links", agents <= MANY);
     this.allow("links", scenes.some((scene) => scene.has_links), agents > KEPT ? `kept of up to ${KEPT} buoys` : "this record keeps none");
-    const crowd = agents > DETAILED ? `sent of up to ${count(DETAILED)} buoys` : null;
-    this.allow("headings", !crowd, crowd ?? "");
-    this.allow("halos", !crowd && scenes.some((scene) => scene.has_repulsion), crowd ?? "this strategy has no a_R");
+    const tooMany = agents > DETAILED ? `sent of up to ${count(DETAILED)} buoys` : null;
+    this.allow("headings", !tooMany, tooMany ?? "");
+    this.allow("halos", !tooMany && scenes.some((scene) => scene.has_repulsion), tooMany ?? "this strategy has no a_R");
     const sensing = scenes.some((scene) => scene.fleets.some((fleet) => fleet.sensor_radius > 0));
     this.allow("sensors", sensing, "sensor radius 0 m: buoys detect by touch");
   }

@@ -136,7 +136,7 @@ def _filmed(
     """Run a scenario, a little before `start` for the trails; return the first step shown, and the record."""
     from shoal.core.links import MOST_LINKED
     from shoal.drawing.arena_drawing import trail_steps
-    from shoal.drawing.crowd import MARKED
+    from shoal.drawing.dots import MARKED
     from shoal.drawing.footage import footage, footage_bytes
     from shoal.scenario.load import scenario_from
 

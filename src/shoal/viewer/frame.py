@@ -13,7 +13,7 @@ from shoal.record.voyage.voyages import Places
 
 FORMAT = 2  # 1 had no links
 LEAN = 3  # the format without what can only be seen of few: velocities, a_R and k of each agent
-CROWD = 10_000  # agents beyond which frames of runs and records are lean
+FULL = 10_000  # agents of the largest swarm whose frames are not lean
 REPULSION = "repulsion"  # the memory field that the page shows as a_R
 BINS = 11  # of phi
 RECENT = 1000  # steps of the shorter mean

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from shoal.core.errors import RecordError, ScenarioError
 from shoal.record.record import Record
-from shoal.viewer.frame import CROWD, frame_bytes
+from shoal.viewer.frame import FULL, frame_bytes
 from shoal.viewer.page import inline_page
 from shoal.viewer.recorded import recorded_frames, recorded_scene
 from shoal.viewer.ring import evenly
@@ -44,7 +44,7 @@ def replay_page(record: Record, *, frames: int = FRAMES, part: Part = "all") -> 
 
 def most_frames(agents: int, targets: int, width: int) -> int:
     """How many frames of so many agents, with so many bytes of links each, and targets a page has room for."""
-    return max(1, ROOM // frame_bytes(agents, targets, width, lean=agents > CROWD))
+    return max(1, ROOM // frame_bytes(agents, targets, width, lean=agents > FULL))
 
 
 def choose_frames(steps: npt.NDArray[np.int64], frames: int, part: Part) -> npt.NDArray[np.int64]:

@@ -17,7 +17,7 @@ _COVER = 0.75  # of what is under a dot is hidden by it, so that more are darker
 _WIDEST = 3  # [pixels]
 
 
-class Crowd:
+class Dots:
     """A dot per buoy that is alive, in the color of its fleet; where several lie, their mean."""
 
     def __init__(self, axes: "Axes", record: Record) -> None:
@@ -32,7 +32,7 @@ class Crowd:
         self._dot = dot_side(int(np.prod(self._shape)), record.facts.agents)
         across, up = area.width / 2, area.height / 2
         self._image = AxesImage(axes, extent=(-across, across, -up, up), origin="lower", zorder=2.4)
-        self._image.set_gid("crowd")
+        self._image.set_gid("dots")
         axes.add_image(self._image)
         self.artists: list[Any] = [self._image]
 

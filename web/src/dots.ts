@@ -34,7 +34,7 @@ export function reporting(frame: Frame): Uint32Array {
 }
 
 /** Draws a dot per agent. */
-export class Crowd {
+export class Dots {
   private readonly canvas = document.createElement("canvas");
 
   draw(context: CanvasRenderingContext2D, camera: Camera, ratio: number, scene: Scene, frame: Frame, theme: Theme): void {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { describe, it } from "node:test";
 import { Camera } from "../src/camera";
-import { dotSide, inView, MARKED, reporting } from "../src/crowd";
+import { dotSide, inView, MARKED, reporting } from "../src/dots";
 import { decodeFrame } from "../src/protocol";
 import { makeFrame } from "./bytes";
 
@@ -15,7 +15,7 @@ const row = (agents: number): { x: Float32Array; y: Float32Array } => ({
   y: new Float32Array(agents),
 });
 
-describe("A crowd", () => {
+describe("A swarm of very many", () => {
   it("gets markers while those in view are few", () => {
     assert.equal(inView(sea(), row(MARKED))!.length, MARKED);
     assert.equal(inView(sea(), row(MARKED + 1)), null);
