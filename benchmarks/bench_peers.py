@@ -49,8 +49,8 @@ ALL = (
 def main() -> None:
     """Install, measure in turn, print a table."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
-    parser.add_argument("--rounds", type=int, default=3, metavar="N", help="turns of each; the fastest counts")
-    parser.add_argument("--seconds", type=float, default=5.0, metavar="S", help="of a turn")
+    parser.add_argument("--rounds", type=int, default=5, metavar="N", help="turns of each; the fastest counts")
+    parser.add_argument("--seconds", type=float, default=3.0, metavar="S", help="of a turn")
     parser.add_argument("--anchor", type=Path, metavar="FILE", help="C++ of the same model, limit.cpp, to compile")
     asked = parser.parse_args()
     before = load()
@@ -69,6 +69,8 @@ def main() -> None:
                 found.setdefault("C++, limit.cpp", []).append(anchor_turn(anchor, asked.seconds))
     print_table(found)
     print(f"\n{machine()}; load before {before}, after {load()}")
+    if others(before) > 0.5 or others(load()) > 1.5:
+        say("others are at work on this machine: measure again when nobody is, or read nothing into the ratios")
 
 
 def is_there(peer: Peer) -> bool:
@@ -103,7 +105,7 @@ def turn_of(peer: Peer, seconds: float) -> dict[str, Any] | None:
     try:
         done = subprocess.run(
             command, check=True, capture_output=True, text=True, timeout=PATIENCE, env={**os.environ, **ONE_THREAD},
-            preexec_fn=stay_on_one_core if hasattr(os, "sched_setaffinity") else None,
+            preexec_fn=PINNED,
         )  # fmt: skip
     except subprocess.SubprocessError as error:
         lines = (getattr(error, "stderr", None) or str(error)).strip().splitlines()
@@ -115,7 +117,8 @@ def turn_of(peer: Peer, seconds: float) -> dict[str, Any] | None:
 
 def anchor_turn(program: Path, seconds: float) -> dict[str, Any]:
     """The same of the anchor, which spends half of the time on single precision."""
-    done = subprocess.run([program, "20", str(2 * seconds)], check=True, capture_output=True, text=True)
+    command = [str(program), "20", str(2 * seconds)]
+    done = subprocess.run(command, check=True, capture_output=True, text=True, preexec_fn=PINNED)
     ns, on_target = re.search(r"f64 ([\d.]+) ns.*target ([\d.]+)", done.stdout).groups()  # type: ignore[union-attr]
     return {"ns": float(ns), "on_target": float(on_target), "replicates": 1, "precision": "f64", "version": ""}
 
@@ -123,6 +126,9 @@ def anchor_turn(program: Path, seconds: float) -> dict[str, Any]:
 def stay_on_one_core() -> None:
     """The last of those that this process may use: others are asked first."""
     os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+
+
+PINNED = stay_on_one_core if hasattr(os, "sched_setaffinity") else None
 
 
 def print_table(found: dict[str, list[dict[str, Any]]]) -> None:
@@ -136,6 +142,11 @@ def print_table(found: dict[str, list[dict[str, Any]]]) -> None:
         ratio = f"{best[name] / best['Shoal']:.3g}" if "Shoal" in best else ""
         about = f"{turns[0]['version']} {turns[0]['precision']}".strip()
         print(f"| {name} | {best[name]:,.0f} | {ratio} | {on_target:.3f} | {turns[0]['replicates']} | {about} |")
+
+
+def others(loads: str) -> float:
+    """The load of the last minute; 0 where nobody knows."""
+    return 0.0 if loads == "unknown" else float(loads.split()[0])
 
 
 def say(words: str) -> None:

@@ -31,7 +31,7 @@ class Dots:
         self._shape = _pixels(axes, area.width, area.height)
         self._dot = dot_side(int(np.prod(self._shape)), record.facts.agents)
         across, up = area.width / 2, area.height / 2
-        self._image = AxesImage(axes, extent=(-across, across, -up, up), origin="lower", zorder=2.4)
+        self._image = AxesImage(axes, extent=(-across, across, -up, up), origin="lower", zorder=1.9)
         self._image.set_gid("dots")
         axes.add_image(self._image)
         self.artists: list[Any] = [self._image]

@@ -1,7 +1,6 @@
 """Which frames of a run are kept, and whether there is room for them."""
 
 import math
-import os
 import shutil
 from pathlib import Path
 
@@ -83,8 +82,8 @@ def check_room(frames: int, frame: int, folder: Path | None) -> None:
     except OSError:
         return  # nobody knows how much there is
     if frames * frame > room:
-        problem = f"keeps {frames:,} frames of {frame / 1e6:,.1f} MB: {_size(frames * frame)}, and there is"
-        where = "free on the disk" if folder else "of memory"
+        problem = f"keeps {frames:,} frames of {frame / 1e6:,.1f} MB: {_size(frames * frame)}, and there is room for"
+        where = "on the disk" if folder else "in memory"
         fix = "keep fewer steps with a larger --every" + ("" if folder else ", or write them to a folder with --out")
         raise ScenarioError("every", f"{problem} {_size(room)} {where}", fix)
 
@@ -95,11 +94,14 @@ def _existing(folder: Path) -> Path:
 
 
 def _memory() -> int:
-    """Bytes of memory of this machine; raises OSError where the system does not say."""
-    try:
-        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, ValueError) as error:
-        raise OSError from error
+    """Bytes of frames that go into what memory nobody uses; raises OSError where the system does not say.
+
+    They take twice as much for a moment, when they are joined.
+    """
+    for line in Path("/proc/meminfo").read_text().splitlines():
+        if line.startswith("MemAvailable:"):
+            return int(line.split()[1]) * 1024 // 2
+    raise OSError
 
 
 def _size(number: float) -> str:
