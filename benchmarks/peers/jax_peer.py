@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 
 import paper as p
-from paper import C, K, N, measure, start
+from paper import SEED, C, K, N, measure, start
 
 REPLICATES = 64
 HALVINGS = 18  # two millionths of the square
@@ -81,7 +81,7 @@ def step(state: State, _: None) -> tuple[State, jax.Array]:
     return state, on_target.any()
 
 
-STEPS = 200
+STEPS = 20
 
 
 @jax.jit
@@ -101,8 +101,8 @@ def advance(_: int) -> int:
 if __name__ == "__main__":
     zeros, agents = jnp.zeros((REPLICATES, 2)), jnp.ones((REPLICATES, N))
     state = State(
-        jnp.asarray(start(REPLICATES, np.random.default_rng(1))), jnp.zeros((REPLICATES, N, 2)),
+        jnp.asarray(start(REPLICATES, np.random.default_rng(SEED))), jnp.zeros((REPLICATES, N, 2)),
         p.A_START * agents, 50.0 * agents, zeros, zeros, jnp.zeros(REPLICATES), jnp.zeros(REPLICATES, int),
-        jax.random.split(jax.random.key(1), REPLICATES),
+        jax.random.split(jax.random.key(SEED), REPLICATES),
     )  # fmt: skip
     measure(advance, STEPS, REPLICATES, str(state.x.dtype).replace("float", "f"), jax.__version__)

@@ -6,7 +6,7 @@ import mesa
 import numpy as np
 from mesa.experimental.continuous_space import ContinuousSpace, ContinuousSpaceAgent
 
-from paper import A_MAX, A_MIN, A_START, A_STEP, MAX_SPEED, OMEGA, RHO, WALL, C, K, N, Target, measure, start
+from paper import A_MAX, A_MIN, A_START, A_STEP, MAX_SPEED, OMEGA, RHO, SEED, WALL, C, K, N, Target, measure, start
 
 
 class Buoy(ContinuousSpaceAgent):
@@ -54,7 +54,7 @@ class Sea(mesa.Model):
     """The arena and its target."""
 
     def __init__(self) -> None:
-        super().__init__(rng=1)
+        super().__init__(rng=SEED)
         self.space = ContinuousSpace([[-10, 10], [-10, 10]], torus=False, random=self.random, n_agents=N)
         self.target = Target(1, self.rng)
         for place, max_speed in zip(start(1, self.rng)[0], MAX_SPEED.tolist(), strict=True):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from paper import A_MAX, A_MIN, A_START, A_STEP, MAX_SPEED, OMEGA, RHO, WALL, C, K, N, Target, measure, start
+from paper import A_MAX, A_MIN, A_START, A_STEP, MAX_SPEED, OMEGA, RHO, SEED, WALL, C, K, N, Target, measure, start
 
 REPLICATES = 8  # more do not stay in the cache
 
@@ -11,7 +11,7 @@ class Swarm:
     """Positions and velocities (R, N, 2), repulsion strengths (R, N), and the targets."""
 
     def __init__(self) -> None:
-        self.chance = np.random.default_rng(1)
+        self.chance = np.random.default_rng(SEED)
         self.x = start(REPLICATES, self.chance)
         self.v = np.zeros_like(self.x)
         self.a = np.full((REPLICATES, N), A_START)
