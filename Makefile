@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 MINUTES ?= 60
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
-.PHONY: demo test test-fast lint bench arena soak notebook web clean help
+.PHONY: demo test test-fast lint bench bench-peers arena soak notebook web clean help
 
 help:
 	@echo "make demo      run the paper's scenario: table, figure and record in demo-output/"
@@ -13,6 +13,7 @@ help:
 	@echo "make test-fast without the slow ones"
 	@echo "make lint      ruff, mypy, import-linter"
 	@echo "make bench     speed of the engine beside its anchor and plain NumPy"
+	@echo "make bench-peers the paper's step in NumPy, Mesa, PyTorch, JAX and Warp beside Shoal; installs them into .peers/"
 	@echo "make arena     the leaderboard of docs/reference/arena.md anew, about ten minutes"
 	@echo "make soak      fleets under a seeded adversary on all cores for MINUTES=60; ends with the seed of the first failure"
 	@echo "make notebook  the notebook of the docs anew, as results change"
@@ -47,6 +48,9 @@ bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/bench_engine.py
 	$(BIN)/python benchmarks/bench_strategies.py
 
+bench-peers: $(VENV)/.installed
+	$(BIN)/python benchmarks/bench_peers.py $(if $(ANCHOR),--anchor $(ANCHOR))
+
 arena: $(VENV)/.installed
 	$(BIN)/shoal compare --suite arena --out arena-output --markdown docs/reference/arena.md
 
@@ -61,4 +65,4 @@ web:
 	cd web && npm ci --no-audit --no-fund && npm test && npm run build
 
 clean:
-	rm -rf $(VENV) demo-output arena-output .pytest_cache .mypy_cache .ruff_cache .import_linter_cache
+	rm -rf $(VENV) .peers demo-output arena-output .pytest_cache .mypy_cache .ruff_cache .import_linter_cache

@@ -156,15 +156,15 @@ def anchor_turn(program: Path, k: int) -> float:
     return float(re.search(r"f64 ([\d.]+) ns", printed)[1])  # type: ignore[index]
 
 
-def compile_anchor(folder: Path) -> tuple[Path | None, str]:
+def compile_anchor(folder: Path, source: Path = ANCHOR) -> tuple[Path | None, str]:
     """The anchor's program, or None and the reason."""
     compiler = shutil.which("g++")
-    if not ANCHOR.is_file():
-        return None, "no anchor: ../shared/bench/limit.cpp is not beside this repository"
+    if not source.is_file():
+        return None, f"no anchor: there is no {source.name} where it should be"
     if compiler is None:
         return None, "no anchor: g++ is not installed"
     program = folder / "limit"
-    done = subprocess.run([compiler, *ANCHOR_FLAGS, ANCHOR, "-o", program], capture_output=True, text=True)
+    done = subprocess.run([compiler, *ANCHOR_FLAGS, source, "-o", program], capture_output=True, text=True)
     return (program, "") if done.returncode == 0 else (None, "no anchor: limit.cpp does not compile here")
 
 

@@ -10,7 +10,8 @@ GAUGES = ("time_on_target", "recent", "xi", "xi_now", "engaged")
 def decode(data):
     """The frame at the beginning of some bytes; `size` is where it ends."""
     version, run, epoch, step, agents, targets, link_bytes = struct.unpack_from("<BBHIIII", data)
-    assert version == 2
+    assert version in (2, 3)
+    detailed = agents if version == 2 else 0
     place = struct.calcsize("<BBHIIII")
 
     def take(letter, count):
@@ -22,9 +23,10 @@ def decode(data):
     numbers = take("f", 16)
     frame = SimpleNamespace(run=run, epoch=epoch, step=step, **dict(zip(GAUGES, numbers, strict=False)))
     frame.phi = numbers[5:]
-    frame.x, frame.y, frame.vx, frame.vy, frame.repulsion = (take("f", agents) for _ in range(5))
+    frame.x, frame.y = take("f", agents), take("f", agents)
+    frame.vx, frame.vy, frame.repulsion = (take("f", detailed) for _ in range(3))
     frame.target_x, frame.target_y = take("f", targets), take("f", targets)
-    frame.degree = take("H", agents)
+    frame.degree = take("H", detailed)
     bits = take("B", agents)
     frame.on_target, frame.alive = [bool(each & 1) for each in bits], [bool(each & 2) for each in bits]
     frame.silent = [bool(each & 4) for each in bits]

@@ -5,7 +5,7 @@ import pytest
 
 from scenarios import scenario
 from shoal.core.errors import ScenarioError
-from shoal.drawing.footage import current_record, footage
+from shoal.drawing.footage import current_record, footage, footage_bytes
 from shoal.run.simulate import simulate
 from shoal.run.simulation import Simulation
 
@@ -25,6 +25,18 @@ class TestFootage:
     def test_more_steps_than_the_scenario_has(self):
         with pytest.raises(ScenarioError, match="are more than the 100000"):
             footage(scenario(), 10, start=99_995)
+
+    def test_to_be_drawn_alone_it_is_as_large_as_what_is_drawn(self):
+        whole, lean = (footage(scenario(), 30, start=10, lean=lean).trajectories[0] for lean in (False, True))
+        for name in ("x", "y", "on_target", "alive", "engaged", "target_x", "links"):
+            assert np.array_equal(getattr(lean, name), getattr(whole, name))
+        assert not any(lean.vx.strides)
+        assert lean.vx.shape == lean.memory["repulsion"].shape == whole.x.shape
+
+    def test_more_frames_than_there_is_memory(self, monkeypatch):
+        monkeypatch.setattr("shoal.run.keep._memory", lambda: 10 * footage_bytes(scenario(), lean=False))
+        with pytest.raises(ScenarioError, match="keeps 11 frames"):
+            footage(scenario(), 11)
 
 
 class TestPresent:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from frames import decode
 from shoal.core.links import link_bytes
 from shoal.record.trajectory import Trajectory
-from shoal.viewer.frame import Gauges, pack
+from shoal.viewer.frame import Gauges, frame_bytes, pack
 
 GAUGES = Gauges(0.5, float("nan"), 0.25, 0.75, 7.0, np.arange(11.0))
 
@@ -72,6 +72,16 @@ class TestPack:
     @pytest.mark.parametrize(("agents", "each"), [(50, 23 + 7), (512, 23 + 64), (513, 23), (10_000, 23)])
     def test_an_agent_costs_so_many_bytes(self, agents, each):
         assert len(packed(agents, 1)[1]) == 93 + each * agents
+
+    def test_a_lean_one_says_where_they_are_and_who_reports_a_target(self):
+        what = trajectory(600, 2)
+        data = pack(what, 0, run=0, epoch=0, gauges=GAUGES, lean=True)
+        frame = decode(data)
+        assert len(data) == frame.size == frame_bytes(600, 2, 0, lean=True) == 84 + 9 * 600 + 9 * 2
+        for name in ("x", "y", "target_x", "target_y"):
+            assert getattr(frame, name) == np.float32(getattr(what, name)[0]).tolist()
+        assert (frame.on_target, frame.alive) == (what.on_target[0].tolist(), what.alive[0].tolist())
+        assert frame.vx == frame.repulsion == frame.degree == []
 
 
 class TestTheSilent:

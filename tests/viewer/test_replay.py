@@ -46,6 +46,16 @@ class TestReplayPage:
         assert len(frames) == 50
         assert (frames[0].step, frames[-1].step) == (0, 3998)
 
+    def test_it_shows_fewer_where_they_would_be_too_large_to_open(self, small_page, record, monkeypatch):
+        monkeypatch.setattr("shoal.viewer.replay.ROOM", 10 * (93 + 50 * 30) + 1)
+        assert len(frames_of(replay_page(record))) == 10
+        assert len(frames_of(replay_page(record, frames=3))) == 3
+
+    def test_very_many_agents_are_dots_in_it(self, small_page, record, monkeypatch):
+        monkeypatch.setattr("shoal.viewer.recorded.FULL", 49)
+        frame = frames_of(replay_page(record, frames=1))[0]
+        assert (len(frame.x), frame.vx) == (50, [])
+
     def test_a_hostile_name_stays_a_name(self, small_page):
         hostile = "</script><script>alert(1)"
         page = replay_page(simulate(scenario(changes={"steps": 20, "name": hostile})))

@@ -133,7 +133,7 @@ function drawGrid({ context, left, right }: Plot, theme: Theme, most: number, to
     const y = Math.round(toY(value)) + 0.5;
     context.moveTo(left, y);
     context.lineTo(right, y);
-    context.fillText(short(value), left - 5, y);
+    context.fillText(value < 10_000 ? short(value) : `${short(value / 1000)}k`, left - 5, y);
   }
   context.stroke();
 }

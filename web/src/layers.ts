@@ -16,6 +16,8 @@ export interface Moment {
   targetX: Float32Array; // (T) [m]
   targetY: Float32Array;
   past: Frame[]; // close to each other, oldest first, the shown one left out
+  shown: Uint32Array; // agents that get a marker, in rising order
+  dotted: boolean; // the others are too many for that, and dots
 }
 
 export interface Brush {
@@ -141,17 +143,17 @@ export function drawHalos(brush: Brush, moment: Moment): void {
   drawDiscs(brush, moment, (agent) => moment.frame.repulsion[agent], []);
 }
 
-export function drawTrails({ context, camera }: Brush, { scene, frame, x, y, past }: Moment, size: number): void {
+export function drawTrails({ context, camera }: Brush, { scene, frame, x, y, past, shown }: Moment, size: number): void {
   context.lineWidth = lineWidth(size);
-  const stride = frame.x.length > MANY ? Math.max(Math.ceil(past.length / 3), 1) : 1;
-  forEachFleet(scene, frame.x.length, (fleet, begin, end) => {
+  const stride = shown.length > MANY ? Math.max(Math.ceil(past.length / 3), 1) : 1;
+  forEachFleet(scene, shown, (fleet, agents) => {
     context.strokeStyle = fleetColor(styleOf(scene.fleets[fleet]));
     for (let age = stride; age <= past.length; age += stride) {
       const old = past[past.length - age];
       const next = age === stride ? { x, y } : past[past.length - age + stride];
       context.globalAlpha = 0.45 * (1 - (age - 1) / past.length) + 0.04;
       context.beginPath();
-      for (let agent = begin; agent < end; agent++) {
+      for (const agent of agents) {
         if (!isAlive(frame, agent) || !isAlive(old, agent)) continue;
         context.moveTo(camera.toX(old.x[agent]), camera.toY(old.y[agent]));
         context.lineTo(camera.toX(next.x[agent]), camera.toY(next.y[agent]));
@@ -162,13 +164,14 @@ export function drawTrails({ context, camera }: Brush, { scene, frame, x, y, pas
   context.globalAlpha = 1;
 }
 
-export function drawHeadings({ context, camera }: Brush, { scene, frame, x, y }: Moment, size: number): void {
+export function drawHeadings({ context, camera }: Brush, { scene, frame, x, y, shown }: Moment, size: number): void {
+  if (frame.lean) return;
   context.lineWidth = lineWidth(size);
-  forEachFleet(scene, x.length, (fleet, begin, end) => {
+  forEachFleet(scene, shown, (fleet, agents) => {
     const reach = (2.6 * size) / scene.fleets[fleet].max_speed;
     context.strokeStyle = fleetColor(styleOf(scene.fleets[fleet]));
     context.beginPath();
-    for (let agent = begin; agent < end; agent++) {
+    for (const agent of agents) {
       if (!isAlive(frame, agent)) continue;
       const speed = Math.hypot(frame.vx[agent], frame.vy[agent]);
       if (speed === 0) continue;
@@ -182,14 +185,14 @@ export function drawHeadings({ context, camera }: Brush, { scene, frame, x, y }:
   });
 }
 
-export function drawAgents({ context, camera, theme }: Brush, { scene, frame, x, y }: Moment, size: number): void {
-  forEachFleet(scene, x.length, (fleet, begin, end) => {
+export function drawAgents({ context, camera, theme }: Brush, { scene, frame, x, y, shown }: Moment, size: number): void {
+  forEachFleet(scene, shown, (fleet, agents) => {
     const radius = size * fleetSize(scene, fleet);
     const marker = fleetMarker(styleOf(scene.fleets[fleet]));
     context.fillStyle = fleetColor(styleOf(scene.fleets[fleet]));
     for (const onTarget of [false, true]) {
       context.beginPath();
-      for (let agent = begin; agent < end; agent++) {
+      for (const agent of agents) {
         if (!isAlive(frame, agent) || isSilent(frame, agent) || isOnTarget(frame, agent) !== onTarget) continue;
         traceMarker(context, marker, camera.toX(x[agent]), camera.toY(y[agent]), radius * (onTarget ? 1.2 : 1));
       }
@@ -200,7 +203,7 @@ export function drawAgents({ context, camera, theme }: Brush, { scene, frame, x,
       context.stroke();
     }
     context.beginPath();
-    for (let agent = begin; agent < end; agent++) {
+    for (const agent of agents) {
       if (!isAlive(frame, agent) || !isSilent(frame, agent)) continue;
       traceMarker(context, marker, camera.toX(x[agent]), camera.toY(y[agent]), radius);
     }
@@ -210,15 +213,17 @@ export function drawAgents({ context, camera, theme }: Brush, { scene, frame, x,
     context.lineWidth = Math.max(1.4, size / 4);
     context.stroke();
   });
-  drawGone({ context, camera, theme }, frame, x, y, Math.max(size * 0.7, 2.5));
+  drawGone({ context, camera, theme }, { frame, x, y, shown }, Math.max(size * 0.7, 2.5));
 }
 
-function drawGone({ context, camera, theme }: Brush, frame: Frame, x: Float32Array, y: Float32Array, r: number): void {
+type Places = Pick<Moment, "frame" | "x" | "y" | "shown">;
+
+function drawGone({ context, camera, theme }: Brush, { frame, x, y, shown }: Places, r: number): void {
   context.strokeStyle = theme.muted;
   context.globalAlpha = 0.75;
   context.lineWidth = 1.5;
   context.beginPath();
-  for (let agent = 0; agent < x.length; agent++) {
+  for (const agent of shown) {
     if (isAlive(frame, agent)) continue;
     const px = camera.toX(x[agent]);
     const py = camera.toY(y[agent]);
@@ -279,23 +284,26 @@ export function fleetOf(scene: Scene, agent: number): number {
   return scene.fleets.length - 1;
 }
 
-function forEachFleet(scene: Scene, agents: number, visit: (fleet: number, begin: number, end: number) => void): void {
-  let begin = 0;
+/** Visit the shown agents of each fleet. */
+function forEachFleet(scene: Scene, shown: Uint32Array, visit: (fleet: number, agents: Uint32Array) => void): void {
+  let [begin, last] = [0, 0];
   scene.fleets.forEach((each, fleet) => {
-    const end = fleet === scene.fleets.length - 1 ? agents : Math.min(begin + each.count, agents);
-    visit(fleet, begin, end);
+    last += each.count;
+    let end = begin;
+    while (end < shown.length && (shown[end] < last || fleet === scene.fleets.length - 1)) end++;
+    visit(fleet, shown.subarray(begin, end));
     begin = end;
   });
 }
 
 /** A disc around each living agent, of a radius [m]; overlapping ones do not add up. */
 function drawDiscs(
-  { context, camera, theme }: Brush, { scene, frame, x, y }: Moment,
+  { context, camera, theme }: Brush, { scene, frame, x, y, shown }: Moment,
   radius: (agent: number, fleet: number) => number, dash: number[],
 ): void {
-  forEachFleet(scene, x.length, (fleet, begin, end) => {
+  forEachFleet(scene, shown, (fleet, agents) => {
     context.beginPath();
-    for (let agent = begin; agent < end; agent++) {
+    for (const agent of agents) {
       const meters = radius(agent, fleet);
       if (!isAlive(frame, agent) || !(meters > 0)) continue;
       const r = meters * camera.scale;
@@ -306,7 +314,7 @@ function drawDiscs(
     }
     context.fillStyle = context.strokeStyle = fleetColor(styleOf(scene.fleets[fleet]));
     context.globalAlpha = theme.dark ? 0.16 : 0.1;
-    if (x.length <= MANY) context.fill();
+    if (shown.length <= MANY) context.fill();
     context.globalAlpha = theme.dark ? 0.6 : 0.4;
     context.lineWidth = 0.9;
     context.setLineDash(dash);

@@ -12,6 +12,7 @@ export class Legend {
   private readonly goneText = document.createTextNode("");
   private readonly silent = el("li", { hidden: true });
   private readonly silentText = document.createTextNode("");
+  private readonly dots = el("li", { hidden: true }, "a dot per buoy: zoom in for more");
 
   describe(scene: Scene): void {
     this.root.replaceChildren();
@@ -25,11 +26,12 @@ export class Legend {
     }
     this.gone.replaceChildren(glyph("gone", "currentColor", svg("path", { d: "M-4-4L4 4M-4 4L4-4" })), this.goneText);
     this.silent.replaceChildren(glyph("hollow", "currentColor", svg("circle", { r: 4.5 })), this.silentText);
-    this.root.append(this.gone, this.silent);
+    this.root.append(this.gone, this.silent, this.dots);
   }
 
-  /** Agents that are gone, or have not joined yet; and those that are there and say nothing. */
-  note(gone: number, silent: number): void {
+  /** Agents that are gone, or have not joined yet; those that are there and say nothing; whether all are dots. */
+  note(gone: number, silent: number, dotted: boolean): void {
+    this.dots.hidden = !dotted;
     this.gone.hidden = gone === 0;
     this.goneText.data = `${count(gone)} not there`;
     this.silent.hidden = silent === 0;

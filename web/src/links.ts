@@ -15,7 +15,7 @@ export function hears({ links, linkBytes }: Heard, agent: number, other: number)
 /** Pairs, each once, of which at least one hears the other. */
 export function linkedPairs(frame: Heard): Pairs {
   const pairs: number[] = [];
-  const agents = frame.x.length;
+  const agents = frame.linkBytes > 0 ? frame.x.length : 0;
   for (let agent = 0; agent < agents; agent++) {
     for (let other = agent + 1; other < agents; other++) {
       if (hears(frame, agent, other) || hears(frame, other, agent)) pairs.push(agent, other);
@@ -26,6 +26,7 @@ export function linkedPairs(frame: Heard): Pairs {
 
 /** An agent with each that it hears. */
 export function heardBy(frame: Heard, agent: number): Pairs {
+  if (frame.linkBytes === 0) return new Uint32Array();
   const others = [...frame.x.keys()].filter((other) => hears(frame, agent, other));
   return Uint32Array.from(others.flatMap((other) => [agent, other]));
 }

@@ -121,6 +121,7 @@ export interface Frame {
   xiNow: number;
   engaged: number; // agents
   phi: Float32Array; // (11) agents
+  lean: boolean; // of very many agents: without vx, vy, repulsion and degree, which are empty then
   x: Float32Array; // (N) [m]
   y: Float32Array;
   vx: Float32Array; // (N) [m/s]
@@ -137,6 +138,7 @@ export interface Frame {
 
 export const PHI_BINS = 11;
 const VERSION = 2;
+const LEAN = 3; // the version without what can only be seen of few
 const HEAD = 84; // bytes before the agents
 const ON_TARGET = 1;
 const ALIVE = 2;
@@ -151,7 +153,8 @@ export class ProtocolError extends Error {}
 
 /** Decode one frame; throws ProtocolError on anything else. */
 export function decodeFrame(bytes: ArrayBuffer): Frame {
-  const { agents, targets, linkBytes, size } = readSize(new DataView(bytes));
+  const { agents, targets, linkBytes, size, lean } = readSize(new DataView(bytes));
+  const detailed = lean ? 0 : agents;
   if (bytes.byteLength !== size) {
     throw new ProtocolError(`a frame of ${agents} agents has ${size} bytes, not ${bytes.byteLength}`);
   }
@@ -174,21 +177,22 @@ export function decodeFrame(bytes: ArrayBuffer): Frame {
     xiNow: sums[3],
     engaged: sums[4],
     phi: sums.subarray(5, 16),
+    lean,
     x: floats(agents),
     y: floats(agents),
-    vx: floats(agents),
-    vy: floats(agents),
-    repulsion: floats(agents),
+    vx: floats(detailed),
+    vy: floats(detailed),
+    repulsion: floats(detailed),
     targetX: floats(targets),
     targetY: floats(targets),
   };
   return {
     ...frame,
-    degree: new Uint16Array(bytes, offset, agents),
-    flags: new Uint8Array(bytes, offset + 2 * agents, agents),
-    present: new Uint8Array(bytes, offset + 3 * agents, targets),
+    degree: new Uint16Array(bytes, offset, detailed),
+    flags: new Uint8Array(bytes, (offset += 2 * detailed), agents),
+    present: new Uint8Array(bytes, (offset += agents), targets),
     linkBytes,
-    links: new Uint8Array(bytes, offset + 3 * agents + targets, agents * linkBytes),
+    links: new Uint8Array(bytes, offset + targets, agents * linkBytes),
   };
 }
 
@@ -218,12 +222,15 @@ export function parseMessage(text: string): Message {
   throw new ProtocolError(`the engine sent a message of unknown type ${String(type)}`);
 }
 
-function readSize(view: DataView): { agents: number; targets: number; linkBytes: number; size: number } {
+function readSize(view: DataView): { agents: number; targets: number; linkBytes: number; size: number; lean: boolean } {
   if (view.byteLength < HEAD) throw new ProtocolError(`a frame has at least ${HEAD} bytes, not ${view.byteLength}`);
   const version = view.getUint8(0);
-  if (version !== VERSION) throw new ProtocolError(`frames have format ${version}; this page reads format ${VERSION}`);
+  if (version !== VERSION && version !== LEAN) {
+    throw new ProtocolError(`frames have format ${version}; this page reads formats ${VERSION} and ${LEAN}`);
+  }
+  const lean = version === LEAN;
   const agents = view.getUint32(8, true);
   const targets = view.getUint32(12, true);
   const linkBytes = view.getUint32(16, true);
-  return { agents, targets, linkBytes, size: HEAD + (23 + linkBytes) * agents + 9 * targets };
+  return { agents, targets, linkBytes, size: HEAD + ((lean ? 9 : 23) + linkBytes) * agents + 9 * targets, lean };
 }

@@ -1,6 +1,7 @@
 // One run on one canvas: which moment is shown, and drawing it. Between two frames everything glides.
 
 import { Camera } from "./camera";
+import { Dots, inView, MARKED, reporting } from "./dots";
 import { el } from "./dom";
 import { count, fixed, time } from "./format";
 import * as layers from "./layers";
@@ -38,12 +39,14 @@ export class Stage {
   crosshair: Point | null = null;
   picked: number | null = null;
   links = 0;
+  dotted = false; // there are too many agents in view for markers
   drawn: number[] = []; // [ms], when the last frames were drawn
 
   private readonly context: CanvasRenderingContext2D;
   private readonly moment = el("p", { class: "moment" });
   private readonly hint = el("p", { class: "hint", hidden: true });
   private readonly legend = new Legend();
+  private readonly dots = new Dots();
   private readonly water: HTMLElement;
   private readonly scenes = new Map<number, Scene>();
   private readonly reduced = matchMedia("(prefers-reduced-motion: reduce)");
@@ -86,7 +89,8 @@ export class Stage {
     if (!scene) return;
     if (scene !== this.scene) this.adopt(scene);
     const arrived = performance.now();
-    const glides = playing && !this.reduced.matches && this.isNear(this.frame, frame);
+    const few = frame.x.length <= MARKED;
+    const glides = playing && few && !this.reduced.matches && this.isNear(this.frame, frame);
     this.from = glides ? this.now : null;
     const gap = Math.min(arrived - this.began, LONGEST_GLIDE);
     this.glide = glides ? (this.glide ? 0.8 * this.glide + 0.2 * gap : gap) : 0;
@@ -106,7 +110,8 @@ export class Stage {
     const state = there ? `${fixed(frame.engaged, 0)} on target` : "no target is there";
     this.moment.textContent = `Step ${count(frame.step)} · ${time(frame.step * scene.time_step)} · ${state}`;
     const gone = frame.x.length - this.livingAgents();
-    this.legend.note(gone, frame.x.reduce((sum, _, agent) => sum + Number(isAlive(frame, agent) && isSilent(frame, agent)), 0));
+    const silent = frame.flags.reduce((sum, _, agent) => sum + Number(isAlive(frame, agent) && isSilent(frame, agent)), 0);
+    this.legend.note(gone, silent, this.dotted);
     if (playing) return; // a label that changes all the time is read out all the time
     const words = `${count(frame.x.length - gone)} buoys, ${state}`;
     this.canvas.setAttribute("aria-label", `Map of the swarm${this.letter && `, run ${this.letter}`}: ${words}`);
@@ -131,7 +136,8 @@ export class Stage {
     if (this.drawn.length > 240) this.drawn.splice(0, 120);
     const brush = { context, camera, theme };
     const { plot } = camera;
-    const size = this.markerSize(frame.x.length);
+    this.dotted = moment.dotted;
+    const size = this.markerSize(this.dotted || frame.x.length <= MARKED ? frame.x.length : moment.shown.length);
     context.save();
     context.beginPath();
     context.rect(plot.left, plot.top, plot.width, plot.height);
@@ -145,7 +151,8 @@ export class Stage {
       this.links = pairs.length / 2;
       layers.drawLinks(brush, moment, pairs);
     }
-    if (look.trails) layers.drawTrails(brush, { ...moment, past: this.trail(moment.past) }, size);
+    if (this.dotted) this.dots.draw(context, camera, ratio, scene, frame, theme);
+    else if (look.trails) layers.drawTrails(brush, { ...moment, past: this.trail(moment.past) }, size);
     layers.drawTargets(brush, look.trails ? moment : { ...moment, past: [] });
     if (this.picked !== null) layers.drawPicked(brush, moment, this.picked, heardBy(frame, this.picked), size);
     if (look.headings) layers.drawHeadings(brush, moment, size);
@@ -167,7 +174,7 @@ export class Stage {
   agentAt(px: number, py: number, within: number): number | null {
     if (!this.frame || !this.now) return null;
     let [best, least] = [null as number | null, within];
-    for (let agent = 0; agent < this.frame.x.length; agent++) {
+    for (const agent of this.now.shown) {
       if (!isAlive(this.frame, agent)) continue;
       const distance = Math.hypot(this.camera.toX(this.now.x[agent]) - px, this.camera.toY(this.now.y[agent]) - py);
       if (distance <= least) [best, least] = [agent, distance];
@@ -192,8 +199,10 @@ export class Stage {
     const { frame, scene } = this;
     const parts = [
       `${scene.fleets[layers.fleetOf(scene, agent)].name} no. ${agent}`,
-      `${fixed(Math.hypot(frame.vx[agent], frame.vy[agent]), 2)} m/s`,
-      scene.has_links ? `hears ${heardBy(frame, agent).length / 2} (k ${frame.degree[agent]})` : `k ${frame.degree[agent]}`,
+      ...(frame.lean ? [] : [
+        `${fixed(Math.hypot(frame.vx[agent], frame.vy[agent]), 2)} m/s`,
+        scene.has_links ? `hears ${heardBy(frame, agent).length / 2} (k ${frame.degree[agent]})` : `k ${frame.degree[agent]}`,
+      ]),
     ];
     if (Number.isFinite(frame.repulsion[agent])) parts.push(`a_R ${fixed(frame.repulsion[agent], 3)} m`);
     if (isOnTarget(frame, agent)) parts.push("reports a target");
@@ -245,14 +254,20 @@ export class Stage {
     if (!from || part === 1 || from.x.length !== frame.x.length) {
       this.from = null;
       const { x, y, targetX, targetY } = frame;
-      return { scene, frame, x, y, targetX, targetY, past };
+      return { scene, frame, x, y, targetX, targetY, past, ...this.shownOf(frame, frame) };
     }
     const mix = (a: Float32Array, b: Float32Array): Float32Array => b.map((value, n) => a[n] + part * (value - a[n]));
+    const places = { x: mix(from.x, frame.x), y: mix(from.y, frame.y) };
     return {
-      scene, frame, past,
-      x: mix(from.x, frame.x), y: mix(from.y, frame.y),
+      scene, frame, past, ...places, ...this.shownOf(frame, places),
       targetX: mix(from.targetX, frame.targetX), targetY: mix(from.targetY, frame.targetY),
     };
+  }
+
+  /** Which agents get a marker, and whether the others are dots. */
+  private shownOf(frame: Frame, places: Pick<Frame, "x" | "y">): Pick<layers.Moment, "shown" | "dotted"> {
+    const shown = frame.x.length <= MARKED ? Uint32Array.from(frame.x.keys()) : inView(this.camera, places);
+    return { shown: shown ?? reporting(frame), dotted: shown === null };
   }
 
   /** Frames before the shown one that lie so close that lines between them are paths. */

@@ -1,6 +1,7 @@
 // What is shown on the water: one switch each.
 
 import { el } from "./dom";
+import { count } from "./format";
 import type { Scene } from "./protocol";
 import type { Look } from "./stage";
 
@@ -12,6 +13,7 @@ const SWITCHES: { name: keyof Look; words: string; key: string }[] = [
   { name: "trails", words: "Trails", key: "P" },
 ];
 const KEPT = 512; // agents whose links the engine keeps
+const DETAILED = 10_000; // agents of whom frames say velocity and a_R
 const MANY = 300; // agents from which links are a gray sheet unless asked for
 
 export class Switches {
@@ -37,7 +39,9 @@ export class Switches {
     const agents = Math.max(...scenes.map((scene) => scene.fleets.reduce((sum, fleet) => sum + fleet.count, 0)));
     if (!this.asked) this.apply("links", agents <= MANY);
     this.allow("links", scenes.some((scene) => scene.has_links), agents > KEPT ? `kept of up to ${KEPT} buoys` : "this record keeps none");
-    this.allow("halos", scenes.some((scene) => scene.has_repulsion), "this strategy has no a_R");
+    const tooMany = agents > DETAILED ? `sent of up to ${count(DETAILED)} buoys` : null;
+    this.allow("headings", !tooMany, tooMany ?? "");
+    this.allow("halos", !tooMany && scenes.some((scene) => scene.has_repulsion), tooMany ?? "this strategy has no a_R");
     const sensing = scenes.some((scene) => scene.fleets.some((fleet) => fleet.sensor_radius > 0));
     this.allow("sensors", sensing, "sensor radius 0 m: buoys detect by touch");
   }

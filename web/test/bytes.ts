@@ -9,7 +9,7 @@ export interface Made {
   degree?: number[];
   flags?: number[];
   targets?: [number, number, number][]; // x, y [m], present
-  version?: number;
+  version?: number; // 3: lean
   links?: number[][]; // a row of bytes for each agent
   measures?: number[];
 }
@@ -19,7 +19,8 @@ export function makeFrame(made: Made): ArrayBuffer {
   const agents = x.length;
   const targets = made.targets ?? [[2, 3, 1]];
   const links = made.links ?? [];
-  const bytes = new ArrayBuffer(84 + 23 * agents + 9 * targets.length + links.flat().length);
+  const lean = made.version === 3;
+  const bytes = new ArrayBuffer(84 + (lean ? 9 : 23) * agents + 9 * targets.length + links.flat().length);
   const view = new DataView(bytes);
   view.setUint8(0, made.version ?? 2);
   view.setUint8(1, made.run ?? 0);
@@ -33,10 +34,10 @@ export function makeFrame(made: Made): ArrayBuffer {
   const floats = (values: number[]): void => values.forEach((value) => (view.setFloat32(at, value, true), (at += 4)));
   floats(x);
   floats(made.y ?? x.map(() => 0));
-  for (let n = 0; n < 3; n++) floats(x.map((_, agent) => 10 * n + agent));
+  for (let n = 0; n < (lean ? 0 : 3); n++) floats(x.map((_, agent) => 10 * n + agent));
   floats(targets.map((target) => target[0]));
   floats(targets.map((target) => target[1]));
-  for (const degree of made.degree ?? x.map(() => 1)) (view.setUint16(at, degree, true), (at += 2));
+  for (const degree of lean ? [] : made.degree ?? x.map(() => 1)) (view.setUint16(at, degree, true), (at += 2));
   for (const flags of made.flags ?? x.map(() => 2)) view.setUint8(at++, flags);
   for (const target of targets) view.setUint8(at++, target[2]);
   for (const byte of links.flat()) view.setUint8(at++, byte);

@@ -30,6 +30,14 @@ describe("A frame", () => {
     assert.deepEqual([0, 1].map((target) => isPresent(frame, target)), [true, false]);
   });
 
+  it("of very many agents is lean: where they are, and who reports a target", () => {
+    const frame = decodeFrame(makeFrame({ version: 3, x: [1.5, 2], y: [3, 4], flags: [3, 2], targets: [[8, -8, 1]] }));
+    assert.ok(frame.lean);
+    assert.deepEqual([...frame.x, ...frame.y, ...frame.flags], [1.5, 2, 3, 4, 3, 2]);
+    assert.deepEqual([frame.targetX[0], frame.targetY[0], frame.present[0]], [8, -8, 1]);
+    assert.equal(frame.vx.length + frame.vy.length + frame.repulsion.length + frame.degree.length, 0);
+  });
+
   it("of another format, or of the wrong length, is refused", () => {
     assert.throws(() => decodeFrame(makeFrame({ version: 1 })), ProtocolError);
     assert.throws(() => decodeFrame(makeFrame({}).slice(0, -1)), ProtocolError);

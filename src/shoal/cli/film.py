@@ -15,9 +15,11 @@ from shoal.core.errors import ScenarioError
 from shoal.core.text import cut
 
 if TYPE_CHECKING:
+    from shoal.drawing.film import FilmLook
     from shoal.record.record import Record
 
 _STEPS = 600  # of a scenario, if nobody says otherwise
+_ROOM = 1_000_000_000  # [bytes] of its frames, if nobody says otherwise
 
 _No = Parameter(negative=())
 
@@ -103,7 +105,7 @@ def film(
         record = _opened(source, seed=seed, assignments=assignments)
     else:
         table = edited_table(source, {"seed": seed}, assignments or [], None, None)
-        start, record = _filmed(source, table, start or 0, steps, every or 1, run, links)
+        start, record = _filmed(source, table, start or 0, steps, every or 1, run, look)
         steps = None  # all that was run from `start` on
     with progress_bar(f"{out.name}", "frames") as progress:
         made = write_film(
@@ -129,24 +131,33 @@ def _opened(folder: str, **changes: Any) -> "Record":
 
 
 def _filmed(
-    source: str, table: dict[str, Any], start: int, steps: int | None, every: int, run: int, links: bool
+    source: str, table: dict[str, Any], start: int, steps: int | None, every: int, run: int, look: "FilmLook"
 ) -> tuple[int, "Record"]:
     """Run a scenario, a little before `start` for the trails; return the first step shown, and the record."""
     from shoal.core.links import MOST_LINKED
     from shoal.drawing.arena_drawing import trail_steps
-    from shoal.drawing.footage import footage
+    from shoal.drawing.dots import MARKED
+    from shoal.drawing.footage import footage, footage_bytes
     from shoal.scenario.load import scenario_from
 
     scenario = scenario_from(table, where=source)
-    if links and scenario.agents > MOST_LINKED:
+    if look.parts.links and scenario.agents > MOST_LINKED:
         problem = f"are kept of up to {MOST_LINKED} agents, and there are {scenario.agents:,}"
         raise ScenarioError("--links", problem, "leave them out")
     start = -(-start // every) * every
-    steps = min(_STEPS, max(scenario.steps - start, 1)) if steps is None else steps
     lead = min(start, -(-trail_steps(scenario) // every) * every)
+    lean = scenario.agents > MARKED and not (look.parts.halos or look.panels)
+    if steps is None:
+        steps = min(_STEPS, max(scenario.steps - start, 1))
+        fit = every * (_ROOM // footage_bytes(scenario, lean)) - lead
+        if fit < steps:
+            steps = max(fit, every)
+            note(f"{steps} steps of {scenario.agents:,} agents are filmed, in 1 GB of memory; --steps asks for more")
     tell_of_compiling(scenario)
     with progress_bar(f"{scenario.name}, {start + steps:,} steps") as progress:
-        return start, footage(scenario, steps + lead, start=start - lead, every=every, run=run, progress=progress)
+        return start, footage(
+            scenario, steps + lead, start=start - lead, every=every, run=run, lean=lean, progress=progress
+        )
 
 
 def _size(text: str | None) -> tuple[int | None, int | None]:

@@ -26,13 +26,14 @@ def replay(
     out
         The HTML file to write; a page of this name that Shoal made is replaced.
     frames
-        Frames in the page, at most.
+        Frames in the page, at most; fewer where agents are so many that a page would be larger than 64 MB.
     part
         all: spread evenly over the whole run; end: the last steps, every one of them as far as they were kept.
     """
     from shoal.core.errors import ScenarioError
     from shoal.core.files import check_file, write_atomic
-    from shoal.viewer.replay import replay_page
+    from shoal.core.links import link_bytes
+    from shoal.viewer.replay import most_frames, replay_page
 
     if frames < 1:
         raise ScenarioError("--frames", f"is {frames}", "ask for 1 or more")
@@ -45,6 +46,7 @@ def replay(
         from shoal.scenario.load import load
 
         scenario = load(source)
+        frames = min(frames, most_frames(scenario.agents, len(scenario.targets), link_bytes(scenario.agents)))
         every = max(1, -(-scenario.steps // frames)) if part == "all" else None
         with progress_bar(f"{scenario.name}, {scenario.steps:,} steps") as progress:
             record = simulate(scenario, every=every, progress=progress)

@@ -14,9 +14,15 @@ if TYPE_CHECKING:
 
 
 class AgentMarks:
-    """One mark per buoy that is alive; it is bigger and has a dark rim where it reports a target, false alarms too."""
+    """One mark per buoy that is alive; it is bigger and has a dark rim where it reports a target, false alarms too.
 
-    def __init__(self, axes: "Axes", record: Record) -> None:
+    Parameters
+    ----------
+    reporting : only those that report a target
+    """
+
+    def __init__(self, axes: "Axes", record: Record, reporting: bool = False) -> None:
+        self._reporting = reporting
         self._ends = np.cumsum(record.facts.counts)
         self._areas = [marker_area(record, fleet) for fleet in range(len(self._ends))]
         self.artists: list[Any] = [
@@ -28,7 +34,10 @@ class AgentMarks:
         """Move to a frame."""
         begin = 0
         for marks, area, end in zip(self.artists, self._areas, self._ends, strict=True):
-            there = np.flatnonzero(frames.alive[at, begin:end]) + begin
+            drawn = frames.alive[at, begin:end]
+            if self._reporting:
+                drawn = drawn & frames.on_target[at, begin:end]
+            there = np.flatnonzero(drawn) + begin
             on_target = np.asarray(frames.on_target[at])[there]
             marks.set_offsets(np.stack([frames.x[at][there], frames.y[at][there]], axis=-1))
             marks.set_sizes(area * np.where(on_target, 1.35, 1.0))

@@ -8,6 +8,7 @@ from shoal.drawing.agents import AgentMarks
 from shoal.drawing.arena import PAD, draw_arena, draw_scale_bar, in_kilometers
 from shoal.drawing.chart import current_arrows, draw_chart
 from shoal.drawing.discs import Halos, SensorDiscs
+from shoal.drawing.dots import MARKED, Dots
 from shoal.drawing.links import Links
 from shoal.drawing.targets import TargetMarks
 from shoal.drawing.trails import AgentTrails, TargetTrail, draw_whole_path, target_points
@@ -81,7 +82,10 @@ class ArenaDrawing:
             self.actors.append(Halos(axes, record, run))
         if parts.sensors:
             self.actors.append(SensorDiscs(axes, record, run))
-        self.actors.append(AgentMarks(axes, record))
+        dotted = record.facts.agents > MARKED
+        if dotted:
+            self.actors.append(Dots(axes, record))
+        self.actors.append(AgentMarks(axes, record, reporting=dotted))
         self._tracks = [number for number, target in enumerate(targets) if target.kind == "track"]
         self._needs_scale = in_kilometers(record.scenario.area) or bool(self._tracks)
         self._axes = axes

@@ -8,6 +8,7 @@ import numpy.typing as npt
 from shoal.drawing.agents import AgentMarks
 from shoal.drawing.arena import draw_arena, draw_scale_bar
 from shoal.drawing.chart import draw_chart
+from shoal.drawing.dots import MARKED, Dots
 from shoal.drawing.legend import draw_map_legend
 from shoal.drawing.snapshot import POINTS, frames_of
 from shoal.drawing.stretch import stretch_of
@@ -36,6 +37,8 @@ def draw_trajectory_map(
 ) -> None:
     """Draw the path of each buoy, in the color of its fleet, and of each target, from a ring to a mark.
 
+    Of very many buoys there is only where they are at the end, as dots.
+
     Parameters
     ----------
     run : number of a run that kept a trajectory
@@ -56,13 +59,16 @@ def draw_trajectory_map(
     side = max(area.width, area.height)
     draw_arena(axes, area)
     draw_chart(axes, record.scenario)
-    paths = agent_paths(frames, slice(None))  # (N, K, 2)
+    dotted = facts.agents > MARKED
+    paths = np.empty((0, 1, 2)) if dotted else agent_paths(frames, slice(None))  # (N, K, 2)
     begin = 0
-    for fleet, number in enumerate(facts.counts):
+    for fleet, number in enumerate(() if dotted else facts.counts):
         mine = paths[begin : begin + number]
         _draw_paths(axes, mine, fleet_color(fleet), 0.9, f"paths-{fleet}", 3)
         _draw_starts(axes, mine, fleet_color(fleet), 7.0, f"starts-{fleet}")
         begin += number
+    if dotted:
+        Dots(axes, record).show(frames, -1)
     for number, target in enumerate(targets):
         path = target_points(frames, slice(None), number)
         there = path[np.isfinite(path).all(axis=1)]
@@ -72,7 +78,7 @@ def draw_trajectory_map(
         _draw_paths(axes, broken[None], TARGET, 2.0, f"target-path-{number}", 2)
         _draw_starts(axes, path[None], TARGET, 26.0, f"target-start-{number}")
         TargetMarks(axes, record, number).show(frames, -1)
-    AgentMarks(axes, record).show(frames, -1)
+    AgentMarks(axes, record, reporting=dotted).show(frames, -1)
     draw_scale_bar(axes, paths.reshape(-1, 2))
     height = draw_map_legend(axes, record)
     axes.set_title(_words(record, frames, run), pad=7.0 + POINTS * height)

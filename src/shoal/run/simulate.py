@@ -23,13 +23,11 @@ from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.run.compiling import mark_compiled
 from shoal.run.facts import facts_of
-from shoal.run.simulation import Simulation, count_frames
+from shoal.run.keep import Keep
+from shoal.run.simulation import Simulation
 from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source, load
 from shoal.scenario.schema import Scenario
-
-OVERVIEW = 500  # frames of the first run kept over its whole length, unless asked otherwise
-TAIL = 300  # and of its last steps, all
 
 ProgressCallback = Callable[[int, int], None]
 
@@ -53,14 +51,14 @@ def simulate(
     scenario : what to run: a preset's name, a TOML file, a dict or a Scenario
     runs : independent replicates, R; replicate r of two scenarios with one seed shares its chance
     jobs : threads, one run each; default: one per core
-    every : keep the frame of every n-th step of every run; default: an overview of the first run
+    every : keep the frame of every n-th step of every run; default: an overview of the first run, of 500 MB at most
     out : write the record to this new folder; trajectories stream there, so memory does not grow with steps
     progress : called as progress(steps done, steps in all) from time to time, from any thread
     changes : to the scenario, in the words of the command line, as in `Scenario.with_`
 
     Raises
     ------
-    ScenarioError, TrackError, StrategyError : what cannot run
+    ScenarioError, TrackError, StrategyError : what cannot run, or keep so many frames
     RecordError : `out` exists or cannot be written
     """
     for name, number in (("runs", runs), ("jobs", jobs), ("every", every)):
@@ -70,7 +68,7 @@ def simulate(
     scenario = load(scenario, **changes)
     begun, started = time.perf_counter(), datetime.now(UTC)
     with RecordFolder(out) if out is not None else nullcontext() as folder:
-        keep = _Keep(scenario.steps, every, folder)
+        keep = Keep(scenario, every, runs, folder)
         first = Simulation(scenario)
         first.advance(0)  # compiles here and once, not in every thread
         mark_compiled(scenario)
@@ -80,7 +78,7 @@ def simulate(
             facts=facts_of(scenario),
             roster=first.roster,
             tallies=tuple(tally for tally, _ in results),
-            provenance=provenance(scenario, started, time.perf_counter() - begun, first.notes),
+            provenance=provenance(scenario, started, time.perf_counter() - begun, [*first.notes, *keep.notes]),
             trajectories={run: frames for run, (_, frames) in enumerate(results) if frames is not None},
         )
         return folder.finish(record) if folder else record
@@ -106,19 +104,8 @@ def provenance(scenario: Scenario, started: datetime, seconds: float, notes: lis
     }
 
 
-class _Keep:
-    """Which frames are kept, and where they go."""
-
-    def __init__(self, steps: int, every: int | None, folder: RecordFolder | None) -> None:
-        self.every = every or max(1, -(-steps // OVERVIEW))
-        self.tail = steps if every else max(0, steps - TAIL)
-        self.all_runs = every is not None
-        self.folder = folder
-        self.frames = count_frames(0, steps, self.every, self.tail)
-
-
 def _run_all(
-    scenario: Scenario, first: Simulation, runs: int, jobs: int, keep: _Keep, progress: ProgressCallback
+    scenario: Scenario, first: Simulation, runs: int, jobs: int, keep: Keep, progress: ProgressCallback
 ) -> list[tuple[Tally, Trajectory | None]]:
     stop = threading.Event()
     done, total, lock = 0, runs * scenario.steps, threading.Lock()
@@ -152,7 +139,7 @@ def _run_all(
 
 
 def _run_one(
-    simulation: Simulation, keep: _Keep, stop: threading.Event, count: Callable[[int], None]
+    simulation: Simulation, keep: Keep, stop: threading.Event, count: Callable[[int], None]
 ) -> tuple[Tally, Trajectory | None]:
     """Run to the end in chunks, so that progress is seen and an interrupt is heard."""
     steps = simulation.scenario.steps

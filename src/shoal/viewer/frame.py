@@ -12,6 +12,8 @@ from shoal.record.trajectory import Trajectory
 from shoal.record.voyage.voyages import Places
 
 FORMAT = 2  # 1 had no links
+LEAN = 3  # the format without what can only be seen of few: velocities, a_R and k of each agent
+FULL = 10_000  # agents of the largest swarm whose frames are not lean
 REPULSION = "repulsion"  # the memory field that the page shows as a_R
 BINS = 11  # of phi
 RECENT = 1000  # steps of the shorter mean
@@ -37,18 +39,22 @@ class Gauges(NamedTuple):
     phi: npt.ArrayLike
 
 
-def pack(frames: Trajectory, at: int, *, run: int, epoch: int, gauges: Gauges, silent: Collection[int] = ()) -> bytes:
-    """Return the bytes of one frame of a trajectory, in which some are silent."""
+def pack(
+    frames: Trajectory, at: int, *, run: int, epoch: int, gauges: Gauges, silent: Collection[int] = (),
+    lean: bool = False,
+) -> bytes:  # fmt: skip
+    """Return the bytes of one frame of a trajectory, in which some are silent; `lean`: where and on target or not."""
     size = frames.x.shape[1], frames.target_x.shape[1], frames.links.shape[2]
-    frame = np.zeros((), _layout(*size))
-    frame["format"], frame["run"], frame["epoch"] = FORMAT, run, epoch % 65536
+    frame = np.zeros((), _layout(*size, lean))
+    frame["format"], frame["run"], frame["epoch"] = LEAN if lean else FORMAT, run, epoch % 65536
     frame["step"] = frames.step[at]
     frame["agents"], frame["targets"], frame["link_bytes"] = size
     frame["gauges"] = [*gauges[:-1], *np.asarray(gauges.phi, float)]
-    for name in ("x", "y", "vx", "vy", "target_x", "target_y", "links"):
+    for name in ("x", "y", "target_x", "target_y", "links", *(() if lean else ("vx", "vy"))):
         frame[name] = getattr(frames, name)[at]
-    frame["repulsion"] = frames.memory[REPULSION][at] if REPULSION in frames.memory else np.nan
-    frame["degree"] = frames.neighbors[at]
+    if not lean:
+        frame["repulsion"] = frames.memory[REPULSION][at] if REPULSION in frames.memory else np.nan
+        frame["degree"] = frames.neighbors[at]
     frame["agent_bits"] = frames.on_target[at] * ON_TARGET + frames.alive[at] * ALIVE
     frame["target_bits"] = frames.target_present[at] * PRESENT
     if silent:
@@ -87,10 +93,15 @@ def gauges_of(frame: bytes) -> Gauges:
     return Gauges._make([*numbers[:5].tolist(), numbers[5:]])
 
 
+def frame_bytes(agents: int, targets: int, width: int, *, lean: bool = False) -> int:
+    """Return the size of a packed frame of agents with `width` bytes of links each."""
+    return _layout(agents, targets, width, lean).itemsize
+
+
 @cache
-def _layout(agents: int, targets: int, link_bytes: int) -> np.dtype[np.void]:
+def _layout(agents: int, targets: int, link_bytes: int, lean: bool = False) -> np.dtype[np.void]:
     """Little endian, without gaps."""
-    per_agent = [(name, "<f4", (agents,)) for name in ("x", "y", "vx", "vy", "repulsion")]
+    per_agent = [(name, "<f4", (agents,)) for name in ("x", "y", *(() if lean else ("vx", "vy", "repulsion")))]
     per_target = [(name, "<f4", (targets,)) for name in ("target_x", "target_y")]
     return np.dtype(
         [
@@ -104,7 +115,7 @@ def _layout(agents: int, targets: int, link_bytes: int) -> np.dtype[np.void]:
             ("gauges", "<f4", (5 + BINS,)),
             *per_agent,
             *per_target,
-            ("degree", "<u2", (agents,)),
+            *(() if lean else (("degree", "<u2", (agents,)),)),
             ("agent_bits", "u1", (agents,)),
             ("target_bits", "u1", (targets,)),
             ("links", "u1", (agents, link_bytes)),

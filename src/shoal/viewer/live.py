@@ -16,7 +16,7 @@ from shoal.scenario.load import scenario_from
 from shoal.scenario.schema import Scenario
 from shoal.strategies import CATALOGUE
 from shoal.strategies.contract import RESERVED
-from shoal.viewer.frame import pack
+from shoal.viewer.frame import FULL, pack
 from shoal.viewer.gauging import Gauging
 from shoal.viewer.scene import as_json, scene_of
 
@@ -52,7 +52,9 @@ class LiveRun:
     def frame(self) -> bytes:
         """The bytes of the current frame."""
         shown = self.simulation.look()
-        return pack(shown, 0, run=self.place, epoch=self._epoch, gauges=self._gauging.of(self.simulation, shown))
+        gauges = self._gauging.of(self.simulation, shown)
+        lean = self.simulation.scenario.agents > FULL
+        return pack(shown, 0, run=self.place, epoch=self._epoch, gauges=gauges, lean=lean)
 
     def scenario_with(self, changes: Mapping[str, Any]) -> tuple[Table, Scenario]:
         """Return table and scenario with some fields changed; nothing happens yet.

@@ -8,7 +8,7 @@ import numpy.typing as npt
 from shoal.record.course import Course
 from shoal.record.frames import Moment, engaged_by_frame, moment_of
 from shoal.record.record import Record
-from shoal.viewer.frame import RECENT, Gauges, pack
+from shoal.viewer.frame import FULL, RECENT, Gauges, pack
 from shoal.viewer.scene import scene_of
 
 _SHOWN = (  # besides those of installed packages
@@ -50,7 +50,7 @@ def recorded_frames(record: Record, run: int, chosen: npt.NDArray[np.int64]) -> 
 
     def packed(at: int) -> bytes:
         gauges = _gauges(course, moment_of(kept, at, record.facts), int(kept.step[at]), float(engaged[at]))
-        return pack(kept, at, run=0, epoch=0, gauges=gauges)
+        return pack(kept, at, run=0, epoch=0, gauges=gauges, lean=record.facts.agents > FULL)
 
     return [packed(at) for at in chosen.tolist()]
 

@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from shoal.core.errors import RecordError, ScenarioError
 from shoal.record.record import Record
+from shoal.viewer.frame import FULL, frame_bytes
 from shoal.viewer.page import inline_page
 from shoal.viewer.recorded import recorded_frames, recorded_scene
 from shoal.viewer.ring import evenly
@@ -14,6 +15,7 @@ from shoal.viewer.ring import evenly
 Part = Literal["all", "end"]
 
 FRAMES = 2000  # in a page, unless asked otherwise
+ROOM = 64_000_000  # [bytes] of frames in a page, at most: what browsers open in a moment
 
 
 def replay_page(record: Record, *, frames: int = FRAMES, part: Part = "all") -> str:
@@ -21,7 +23,7 @@ def replay_page(record: Record, *, frames: int = FRAMES, part: Part = "all") -> 
 
     Parameters
     ----------
-    frames : at most this many
+    frames : at most this many, and no more than `most_frames`
     part : spread evenly in time over the whole run; or the last ones, as far as every step was kept
 
     Raises
@@ -35,8 +37,14 @@ def replay_page(record: Record, *, frames: int = FRAMES, part: Part = "all") -> 
     if not record.trajectories:
         raise RecordError("record", "keeps no frames", "run the scenario again with --out")
     run, kept = next(iter(record.trajectories.items()))
-    chosen = choose_frames(np.asarray(kept.step), frames, part)
+    most = most_frames(record.facts.agents, kept.target_x.shape[1], kept.links.shape[2])
+    chosen = choose_frames(np.asarray(kept.step), min(frames, most), part)
     return inline_page(recorded_scene(record, run), b"".join(recorded_frames(record, run, chosen)))
+
+
+def most_frames(agents: int, targets: int, width: int) -> int:
+    """How many frames of so many agents, with so many bytes of links each, and targets a page has room for."""
+    return max(1, ROOM // frame_bytes(agents, targets, width, lean=agents > FULL))
 
 
 def choose_frames(steps: npt.NDArray[np.int64], frames: int, part: Part) -> npt.NDArray[np.int64]:
