@@ -62,9 +62,9 @@ class Placed:
         self.address = stage
         if compiles():
             _refuse_other_types(stage)
-            self.room = np.zeros(_size(), np.uint8)
+            self.room = np.zeros(size_of(_type()), np.uint8)
             self.address = self.room.ctypes.data
-            _put(stage, _layout(), self.room)
+            put(stage, _layout(), self.room)
 
 
 def part(stage: Any, field: int) -> Any:
@@ -104,13 +104,20 @@ def _leaves(value: Any, name: str) -> Any:
         yield name, np.asarray(value).dtype.name
 
 
-def _put(value: Any, where: Any, room: Any) -> None:
-    """Write a value to its place in a room, as kernels read it: of arrays, what numba's array structure says."""
+def _here(array: Any) -> int:
+    return int(array.ctypes.data)
+
+
+def put(value: Any, where: Any, room: Any, address_of: Callable[[Any], int] = _here) -> None:
+    """Write a value to its place in a room, as kernels read it: of arrays, what numba's array structure says.
+
+    where : its layout; address_of : where the numbers of an array are
+    """
     if isinstance(value, tuple):
         for each, place in zip(value, where, strict=True):
-            _put(each, place, room)
+            put(each, place, room, address_of)
     elif isinstance(value, np.ndarray):
-        address = value.ctypes.data
+        address = address_of(value)
         form = f"=2Q2qQ{2 * value.ndim}q"
         pack_into(form, room, where, 0, 0, value.size, value.itemsize, address, *value.shape, *value.strides)
     else:
@@ -120,7 +127,12 @@ def _put(value: Any, where: Any, room: Any) -> None:
 
 @cache
 def _layout() -> Any:
-    """Where in the block each number and array is: offsets in nested lists, one per NamedTuple."""
+    return layout(_type())
+
+
+@cache
+def layout(whole_kind: Any) -> Any:
+    """Where in a block each number and array of a NamedTuple's type is: offsets in nested lists, one per NamedTuple."""
     target = cpu_target.target_context
     data = target.codegen().target_data
 
@@ -133,13 +145,14 @@ def _layout() -> Any:
             return [offsets(each, start + size * place) for place, each in enumerate(kind)]
         return [offsets(each, start + whole.get_element_offset(data, place)) for place, each in enumerate(kind)]
 
-    return offsets(_type(), 0)
+    return offsets(whole_kind, 0)
 
 
 @cache
-def _size() -> int:
+def size_of(kind: Any) -> int:
+    """Bytes of a value of a type in memory."""
     target = cpu_target.target_context
-    return int(target.get_abi_sizeof(target.get_data_type(_type())))
+    return int(target.get_abi_sizeof(target.get_data_type(kind)))
 
 
 _TUPLE: Any = types.BaseTuple  # NamedTuples, too
@@ -157,14 +170,14 @@ def _type_of_part(context):
 def _load(context, builder, signature, arguments):
     place, stage = signature.args[1].literal_value, _type()
     pointer = builder.inttoptr(arguments[0], context.get_data_type(stage).as_pointer())
-    return _unowned(context, builder, stage[place], cgutils.gep_inbounds(builder, pointer, 0, place))
+    return unowned(context, builder, stage[place], cgutils.gep_inbounds(builder, pointer, 0, place))
 
 
-def _unowned(context: Any, builder: Any, kind: Any, pointer: Any) -> Any:
+def unowned(context: Any, builder: Any, kind: Any, pointer: Any) -> Any:
     """The value at a pointer, with arrays that nobody counts references to: their owner is set to nobody (null)."""
     if isinstance(kind, _TUPLE):
         parts = [
-            _unowned(context, builder, each, cgutils.gep_inbounds(builder, pointer, 0, place))
+            unowned(context, builder, each, cgutils.gep_inbounds(builder, pointer, 0, place))
             for place, each in enumerate(kind)
         ]
         return context.make_tuple(builder, kind, parts)

@@ -1,7 +1,5 @@
 """The network as a graph: how many parts it falls into, and how clustered it is."""
 
-import numpy as np
-
 from shoal.compiler.kernel import kernel
 from shoal.metrics.contract import Measurement, Metric, Sum
 from shoal.metrics.shares import share
@@ -20,6 +18,7 @@ def tally_graph(tally, step, world, swarm, targets, scratch):
     if world.sequential or step.number % EVERY != 0:
         return
     agents, alive, links, part = world.agents, swarm.alive, scratch.links, scratch.leader
+    listened = links.wanted  # scratch by now
     for i in range(agents):
         part[i] = i
     for i in range(agents):
@@ -33,7 +32,6 @@ def tally_graph(tally, step, world, swarm, targets, scratch):
         components += there and part[i] == i
         active += there
     total = 0.0
-    listened = np.empty(agents, np.int64)
     for i in range(agents):
         heard = 0
         for j in range(agents):

@@ -161,6 +161,20 @@ class Simulation:
         self._timetable.add(command)
         self._follow_commands()
 
+    def work(self, frames: int = 0) -> tuple[Stage, Memories, Any]:
+        """What the engine works on, with room for so many frames: for those who run steps elsewhere, see `worked`."""
+        return self._stage(self._new_frames(frames)), self._memories, self.crew.params
+
+    def worked(self, steps: int) -> None:
+        """Go on from a state that was brought so many steps further elsewhere.
+
+        Raises
+        ------
+        StrategyError, ScenarioError : a number is not finite
+        """
+        self.number += steps
+        self._settle()
+
     def look(self) -> Trajectory:
         """Return the current frame (K = 1), as the coming step would keep it. Nothing is changed.
 

@@ -1,0 +1,100 @@
+"""A batch of runs on the card: each is a block of threads, all run at once."""
+
+from collections.abc import Sequence
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from shoal.compiler.kernel import compiles
+from shoal.compiler.packed import reader
+from shoal.engine.stage import Stage
+from shoal.gpu.arena import Arena
+from shoal.gpu.card import as_on_the_cpu, compiled
+
+MOST_AGENTS = 480  # a block has so many threads, and each of them so many registers
+_WARP = 32
+
+
+class Work(NamedTuple):
+    """What one run works on, as the engine takes it: stage, memories and parameters of its strategies."""
+
+    stage: Stage
+    memories: Any
+    params: Any
+
+
+class Batch:
+    """Runs whose strategies are of one kind, on the card.
+
+    Parameters
+    ----------
+    works : of each run; their arrays are read now, and written by `fetch`
+    """
+
+    def __init__(self, works: Sequence[Work]) -> None:
+        works = [each._replace(stage=_with_room(each.stage)) for each in works]
+        self._arena: Arena | None = None
+        self._columns: list[Any] = [list(column) for column in zip(*works, strict=True)]
+        if compiles():
+            self._arena = Arena(works)
+            self._columns = [np.ascontiguousarray(column) for column in self._arena.addresses.T]
+        self._kernel = _kernel_for(_Kind(works[0].memories), _Kind(works[0].params))
+        most = max(each.stage.world.agents for each in works)
+        self._shape = len(works), (-(-most // _WARP) * _WARP if compiles() else most) + 1
+
+    def advance(self, firsts: Sequence[int], lasts: Sequence[int], every: int, tail: int) -> None:
+        """Run steps first..last of each run; of every `every`-th, and all from `tail` on, those with room keep frames.
+
+        Raises
+        ------
+        DeviceError : they cannot be compiled
+        """
+        with as_on_the_cpu():
+            steps = np.array(firsts, np.int64), np.array(lasts, np.int64)
+            self._kernel[self._shape](*self._columns, *steps, every, tail)
+
+    def fetch(self) -> None:
+        """Bring the state of all runs back."""
+        if self._arena is not None:
+            self._arena.fetch()
+
+
+class _Kind:
+    """A value that stands for all of its type."""
+
+    def __init__(self, value: Any) -> None:
+        self.value = value
+        self.name = type(value), _shape_of(value)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Kind) and self.name == other.name
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+
+def _shape_of(value: Any) -> Any:
+    """Classes and types of numbers in nested tuples."""
+    if isinstance(value, tuple):
+        return type(value), tuple(_shape_of(each) for each in value)
+    return str(value.dtype) if isinstance(value, np.ndarray) else type(value)
+
+
+def same_kind(one: Work, other: Work) -> bool:
+    """Whether two runs go into one batch."""
+    return _shape_of(one[1:]) == _shape_of(other[1:])
+
+
+@cache
+def _kernel_for(memories: _Kind, params: _Kind) -> Any:
+    from shoal.gpu.step import make_rollout
+
+    return compiled(make_rollout(reader(memories.value), reader(params.value)))
+
+
+def _with_room(stage: Stage) -> Stage:
+    """The same stage, with room for every agent to sort those whom it hears."""
+    scratch, links = stage.scratch, stage.scratch.links
+    order = np.zeros(links.order.size * links.reach.size, np.int64)
+    return stage._replace(scratch=scratch._replace(links=links._replace(order=order)))

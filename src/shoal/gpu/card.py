@@ -1,0 +1,97 @@
+"""The graphics card: whether there is one, what it is called, and how kernels are compiled for it."""
+
+import os
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from shoal.compiler.kernel import NumbaError
+from shoal.compiler.reason import reason_in
+from shoal.core.errors import DeviceError, MissingExtraError
+
+SIMULATED = "a simulated card"
+
+
+def card_name() -> str:
+    """The name of the card that runs happen on.
+
+    Raises
+    ------
+    MissingExtraError : numba-cuda is absent
+    DeviceError : there is no card, or its driver does not answer
+    """
+    cuda = _cuda()
+    if simulated():
+        return SIMULATED
+    try:
+        cuda.current_context()
+        name = cuda.get_current_device().name
+    except Exception as failure:  # of many kinds: no driver, no card, one that is too old or busy
+        problem = f"no graphics card answers: {_first_line(failure)}"
+        raise DeviceError("--device cuda", problem, "see that nvidia-smi lists one, or leave --device out") from None
+    return name.decode() if isinstance(name, bytes) else str(name)
+
+
+def simulated() -> bool:
+    """Whether numba simulates a card, with threads of Python: for tests."""
+    return os.environ.get("NUMBA_ENABLE_CUDASIM") == "1"
+
+
+def _cuda() -> Any:
+    """Numba's module for cards; that of numba itself is the simulator alone, the other is a package of its own."""
+    try:
+        if not simulated():
+            import numba_cuda  # noqa: F401  (numba.cuda is its own then)
+        from numba import cuda
+    except ImportError:
+        raise MissingExtraError.of("numba-cuda", "gpu", "--device cuda") from None
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return cuda
+
+
+def _first_line(failure: BaseException) -> str:
+    text = str(failure).strip() or type(failure).__name__
+    return text.splitlines()[0]
+
+
+def compiled(function: Callable[..., Any]) -> Any:
+    """A kernel of the card, compiled when it is launched first."""
+    from numba import cuda
+
+    jit: Any = cuda.jit
+    if simulated():
+        return jit(function)
+    return jit(function, max_registers=128)
+
+
+@contextmanager
+def as_on_the_cpu() -> Iterator[None]:
+    """Compile without fused multiply-add inside, which rounds once where the CPU rounds twice.
+
+    Numba has no option for it; this hands NVVM its own. It then writes mul.rn and add.rn, which nothing later fuses.
+
+    Raises
+    ------
+    DeviceError : something cannot be compiled for a card
+    """
+    if simulated():
+        yield
+        return
+    from numba.cuda.cudadrv import nvvm
+
+    usual = nvvm.compile_ir
+
+    def without_fma(code: Any, **options: Any) -> Any:
+        return usual(code, **{**options, "fma": False})
+
+    nvvm.compile_ir = without_fma
+    try:
+        yield
+    except NumbaError as error:
+        raise DeviceError(
+            "--device cuda", f"cannot compile this: {reason_in(str(error))}", "leave --device out"
+        ) from error
+    finally:
+        nvvm.compile_ir = usual

@@ -1,0 +1,231 @@
+"""A time-step by a block of threads: that of engine/step.py, each thread being a block of one agent that decides alone.
+
+Thread i does for agent i what the engine does for all lanes, with the engine's own kernels: it hands them the slice
+[i, i + 1) of everything. What is not of one agent (metrics, targets, frames) is the clerk's, the one thread of the
+last warp that works, while the others go on. A barrier stands wherever somebody reads what others write.
+
+    agents   sense | link, listen, decide | tell, move |                      |
+    clerk          | measure before moves | links      | headings, targets    |
+"""
+
+from typing import Any
+
+from numba import cuda
+
+from shoal.compiler.placed import part
+from shoal.core.draws import TARGET_STREAM, split
+from shoal.engine.frames import keep_frame, keep_links
+from shoal.engine.listen import Arrived, Listeners, choose_leaders, sum_influence
+from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
+from shoal.engine.phases import go, settle_links
+from shoal.engine.stage import (
+    FRAMES,
+    NATURE,
+    RADIO,
+    RUN,
+    SCRATCH,
+    SEA,
+    SWARM,
+    TALLY,
+    TARGETS,
+    TRACKS,
+    WORLD,
+    Scratch,
+)
+from shoal.engine.step import Now, Parts, decide, tell
+from shoal.metrics.contract import Step
+from shoal.world.energy import consume
+from shoal.world.motion import limit_maneuver, limit_speed
+from shoal.world.neighbors import Links, link_nearest, measure_distances, rank_heard
+from shoal.world.position import age_errors, locate
+from shoal.world.presence import update_presence
+from shoal.world.radio import adapt_degree, hide_far_away, limit_links, row, said, send, speaks, spoken
+from shoal.world.sensing import believes, detects
+from shoal.world.targets.dispatch import advance_target
+
+_device: Any = cuda.jit(device=True)
+INFINITE = float("inf")
+
+
+@_device
+def step(stage, memories, params, now, i, clerk):
+    """Advance a run by a time-step, as all threads of its block together."""
+    world = part(stage, WORLD)
+    swarm = part(stage, SWARM)
+    radio = part(stage, RADIO)
+    agent = i < world.agents
+    sense(stage, world, swarm, now, i, agent, clerk)
+    if clerk and speaks(radio, now.number):
+        send(radio, swarm, now.number)
+    cuda.syncthreads()
+    if clerk:
+        targets, scratch = part(stage, TARGETS), part(stage, SCRATCH)
+        measure_before_move(part(stage, TALLY), Step(now.number, now.batch, 0), world, swarm, targets, scratch)
+    if now.frame >= 0:
+        if clerk:
+            keep_frame(part(stage, FRAMES), now.frame, now.number, world, swarm, part(stage, TARGETS))
+        cuda.syncthreads()  # what is decided is not kept yet
+    if agent:
+        links = part(stage, SCRATCH).links
+        listen_and_decide(stage, world, swarm, radio, lane_of(links, i, world.agents), memories, params, now, i)
+    cuda.syncthreads()
+    if clerk:
+        targets, scratch = part(stage, TARGETS), part(stage, SCRATCH)
+        measure_links(part(stage, TALLY), Step(now.number, now.batch, 0), world, swarm, targets, scratch)
+        if now.frame >= 0:
+            keep_links(part(stage, FRAMES), now.frame, scratch.links, 0, world.agents)
+    if agent:
+        tell(swarm, i, i + 1)
+        links = part(stage, SCRATCH).links
+        move(stage, world, swarm, radio, lane_of(links, i, world.agents), now, i)
+    cuda.syncthreads()
+    if clerk:
+        conclude(stage, world, swarm, now)
+    cuda.syncthreads()
+
+
+@_device
+def lane_of(links, i, agents):
+    """The links of listener i alone."""
+    last = i + 1
+    ranked = links.rank.shape[0] > 0
+    return Links(
+        links.square[:, i:last],
+        links.reach[i:last],
+        links.heard[i:last],
+        links.wanted[i:last],
+        links.below[i:last],
+        links.above[i:last],
+        links.low[i:last],
+        links.high[i:last],
+        links.off[i:last],
+        links.rank[:, i:last],
+        links.order[i * agents : last * agents] if ranked else links.order,
+    )
+
+
+@_device
+def sense(stage, world, swarm, now, i, agent, clerk):
+    """What `shoal.engine.phases.sense_all` does: who is there, who is on target, and where all believe to be."""
+    targets, sea, effects = part(stage, TARGETS), part(stage, SEA), part(stage, NATURE).effects
+    if world.mortal:
+        if clerk:
+            update_presence(swarm, world, now.number)
+        cuda.syncthreads()
+    on_target = False
+    for j in range(targets.size):
+        sees = False
+        if agent and targets[j].present:
+            sees = detects(swarm, targets[j], j, effects, sea, world, now.key, i)
+        on_target |= sees
+        watchers = cuda.syncthreads_count(1 if sees else 0)
+        if clerk:
+            targets[j].watchers = watchers
+    if agent:
+        swarm.engaged[i] = on_target
+        swarm.on_target[i] = on_target
+        if world.imperfect:
+            swarm.on_target[i] = believes(swarm, effects, now.key, i)
+        if world.inexact:
+            locate(swarm, i, i + 1)
+    cuda.syncthreads()
+
+
+@_device
+def listen_and_decide(stage, world, swarm, radio, links, memories, params, now, i):
+    """Agent i finds out whom it hears, sums up their influence, chooses whom to follow and decides."""
+    scratch = part(stage, SCRATCH)
+    last = i + 1
+    agents, number = world.agents, now.number
+    reports = said(radio, swarm, number)
+    measure_distances(links, reports.x, reports.y, swarm.fix_x[i:last], swarm.fix_y[i:last], i, agents)
+    range_square = radio.range_square
+    if world.inexact:
+        hide_far_away(links, swarm, range_square, i, agents)
+        range_square = INFINITE
+    if radio.limited:
+        limit_links(links, swarm, radio, i, agents, number, range_square)
+        link_nearest(links, links.wanted, agents)
+    else:
+        link_nearest(links, swarm.neighbors[i:last], agents)
+    rank_heard(links, agents)
+    then = spoken(radio, number)
+    told = memories.told if then == number else memories.arrived[row(radio, then)]
+    arrived = Arrived(reports, told, then * world.time_step)
+    listeners = Listeners(
+        i,
+        swarm.fix_x[i:last],
+        swarm.fix_y[i:last],
+        swarm.vx[i:last],
+        swarm.vy[i:last],
+        swarm.on_target[i:last],
+        swarm.max_speed[i:last],
+        swarm.fleet[i:last],
+        world.time_step,
+        number * world.time_step,
+    )
+    sums, leader = scratch.sums[:, i:last], scratch.leader[i:last]
+    for turn in range(2):
+        sum_influence(arrived, listeners, links, params, agents, sums)
+        if turn == 1 or not settle_links(links, world, swarm, radio, part(stage, RUN), number, i):
+            break
+    choose_leaders(arrived, listeners, links, params, agents, leader, links.low)
+    alone = Scratch(links, leader, sums, scratch.a, scratch.b, scratch.c, scratch.d, scratch.sight)
+    parts = Parts(stage, 0, world, swarm, radio, part(stage, TARGETS), alone)
+    decide(swarm, parts, arrived, memories, params, now, i)
+
+
+@_device
+def move(stage, world, swarm, radio, links, now, i):
+    """What `shoal.engine.phases.move_agents` does, for agent i."""
+    last = i + 1
+    if radio.adaptive:
+        adapt_degree(swarm, radio, links, said(radio, swarm, now.number), i, last, world)
+    if world.inertial:
+        limit_maneuver(swarm, i, last, world.time_step)
+    limit_speed(swarm.command_x[i:last], swarm.command_y[i:last], swarm.max_speed[i:last], world.divide)
+    if world.powered:
+        consume(swarm, world, now.number, i, last)
+    go(swarm, part(stage, NATURE).effects, world, i, last)
+    if world.inexact:
+        locate(swarm, i, last)
+
+
+@_device
+def conclude(stage, world, swarm, now):
+    """Measure where agents head while targets are still where they were; then targets move and errors age."""
+    targets, scratch, tracks, sea = part(stage, TARGETS), part(stage, SCRATCH), part(stage, TRACKS), part(stage, SEA)
+    measure_after_move(part(stage, TALLY), Step(now.number, now.batch, 0), world, swarm, targets, scratch)
+    if world.inexact:
+        age_errors(swarm, world, now.key)
+    for j in range(targets.size):
+        advance_target(targets[j], tracks, swarm, sea, world, now.number + 1, split(now.key, TARGET_STREAM + j))
+
+
+def make_rollout(at_memories: Any, at_params: Any) -> Any:
+    """The kernel that runs steps first..last of every run of a batch, for memories and parameters of two types.
+
+    Parameters
+    ----------
+    at_memories, at_params : functions of an address that read them there, see placed.py
+    """
+
+    def rollout(stages, memories, params, firsts, lasts, every, tail):
+        run_number = cuda.blockIdx.x
+        i = cuda.threadIdx.x
+        clerk = i == cuda.blockDim.x - 1
+        stage = stages[run_number]
+        run = part(stage, RUN)
+        batches = part(stage, TALLY).steps.size
+        room = part(stage, FRAMES).step.size
+        run_key = split(split(run.seed, 0), run.run)
+        remembered, chosen = at_memories(memories[run_number]), at_params(params[run_number])
+        frame = 0
+        for number in range(firsts[run_number], lasts[run_number]):
+            batch = min(number * batches // run.steps, batches - 1)
+            keeps = room > 0 and (number % every == 0 or number >= tail)
+            now = Now(number, batch, split(run_key, number), frame if keeps else -1)
+            step(stage, remembered, chosen, now, i, clerk)
+            frame += keeps
+
+    return rollout
