@@ -1,7 +1,7 @@
 """shoal run: one scenario, R runs, a table of results."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter
 
@@ -24,6 +24,7 @@ def run(
     seed: MaybeInteger = None,
     runs: Integer = 1,
     jobs: MaybeInteger = None,
+    device: Literal["cpu", "cuda"] = "cpu",
     strategy: str | None = None,
     target_track: str | None = None,
     track_id: str | None = None,
@@ -55,6 +56,8 @@ def run(
         Independent replicates; with 2 or more, intervals are over them.
     jobs
         Threads, one run each; default one per core.
+    device
+        Where runs happen: the processor's cores (cpu), or a graphics card (cuda), all at once; see docs/how-to/gpu.md.
     strategy
         A strategy's name (see `shoal strategies`) or a Python file that defines one.
     target_track
@@ -94,7 +97,7 @@ def run(
         note(f"k is {chosen.network.neighbors} instead of {asked}: {chosen.agents} agents have no more neighbors")
     tell_of_compiling(chosen)
     with progress_bar(f"{chosen.name}, {runs} x {chosen.steps:,} steps") as progress:
-        record = simulate(chosen, runs=runs, jobs=jobs, every=every, out=out, progress=progress)
+        record = simulate(chosen, runs=runs, jobs=jobs, device=device, every=every, out=out, progress=progress)
     for each in record.provenance["notes"]:
         note(each)
     if out:

@@ -10,7 +10,7 @@ from shoal.compiler.kernel import compiles
 from shoal.compiler.packed import reader
 from shoal.engine.stage import Stage
 from shoal.gpu.arena import Arena
-from shoal.gpu.card import as_on_the_cpu, compiled
+from shoal.gpu.card import as_on_the_cpu, compiled, finish
 
 MOST_AGENTS = 480  # a block has so many threads, and each of them so many registers
 _WARP = 32
@@ -43,16 +43,16 @@ class Batch:
         most = max(each.stage.world.agents for each in works)
         self._shape = len(works), (-(-most // _WARP) * _WARP if compiles() else most) + 1
 
-    def advance(self, firsts: Sequence[int], lasts: Sequence[int], every: int, tail: int) -> None:
-        """Run steps first..last of each run; of every `every`-th, and all from `tail` on, those with room keep frames.
+    def advance(self, first: int, last: int, every: int, tail: int) -> None:
+        """Run steps first..last of all, and wait; runs with room keep frames of every `every`-th, and all from `tail`.
 
         Raises
         ------
         DeviceError : they cannot be compiled
         """
         with as_on_the_cpu():
-            steps = np.array(firsts, np.int64), np.array(lasts, np.int64)
-            self._kernel[self._shape](*self._columns, *steps, every, tail)
+            self._kernel[self._shape](*self._columns, first, last, every, tail)
+            finish()
 
     def fetch(self) -> None:
         """Bring the state of all runs back."""
@@ -79,11 +79,6 @@ def _shape_of(value: Any) -> Any:
     if isinstance(value, tuple):
         return type(value), tuple(_shape_of(each) for each in value)
     return str(value.dtype) if isinstance(value, np.ndarray) else type(value)
-
-
-def same_kind(one: Work, other: Work) -> bool:
-    """Whether two runs go into one batch."""
-    return _shape_of(one[1:]) == _shape_of(other[1:])
 
 
 @cache

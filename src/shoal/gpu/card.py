@@ -66,6 +66,14 @@ def compiled(function: Callable[..., Any]) -> Any:
     return jit(function, max_registers=128)
 
 
+def finish() -> None:
+    """Wait for the card."""
+    from numba import cuda
+
+    api: Any = cuda
+    api.synchronize()
+
+
 @contextmanager
 def as_on_the_cpu() -> Iterator[None]:
     """Compile without fused multiply-add inside, which rounds once where the CPU rounds twice.

@@ -210,7 +210,7 @@ def make_rollout(at_memories: Any, at_params: Any) -> Any:
     at_memories, at_params : functions of an address that read them there, see placed.py
     """
 
-    def rollout(stages, memories, params, firsts, lasts, every, tail):
+    def rollout(stages, memories, params, first, last, every, tail):
         run_number = cuda.blockIdx.x
         i = cuda.threadIdx.x
         clerk = i == cuda.blockDim.x - 1
@@ -221,7 +221,7 @@ def make_rollout(at_memories: Any, at_params: Any) -> Any:
         run_key = split(split(run.seed, 0), run.run)
         remembered, chosen = at_memories(memories[run_number]), at_params(params[run_number])
         frame = 0
-        for number in range(firsts[run_number], lasts[run_number]):
+        for number in range(first, last):
             batch = min(number * batches // run.steps, batches - 1)
             keeps = room > 0 and (number % every == 0 or number >= tail)
             now = Now(number, batch, split(run_key, number), frame if keeps else -1)
