@@ -28,7 +28,7 @@ def packed(value: Any, where: Where) -> Any:
 def reader(value: Any) -> Callable[[Any], Any]:
     """A function for kernels that reads a NamedTuple of the type of this one at an address."""
 
-    def read(address):  # type: ignore[no-untyped-def]
+    def read(address):
         """What is there; without a compiler, the value stands for its address."""
         return address
 
@@ -36,11 +36,11 @@ def reader(value: Any) -> Callable[[Any], Any]:
         kind = typeof(value)
 
         @type_callable(read)
-        def type_of_read(context):  # type: ignore[no-untyped-def]
+        def type_of_read(context):
             return lambda address: kind
 
         @lower_builtin(read, _anything)
-        def load(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+        def load(context, builder, signature, arguments):
             pointer = builder.inttoptr(arguments[0], context.get_data_type(kind).as_pointer())
             return unowned(context, builder, kind, pointer)
 

@@ -32,13 +32,10 @@ class Arena:
         for group in values:
             for array in arrays_in(group):
                 self._place(array)
-        headers = []
-        forms = [[packed(value, lambda array: 0) for value in group] for group in values]
-        for group in forms:
-            headers.append([self._take(form.nbytes) for form in group])
+        headers = [[self._take(packed(value, _nowhere).nbytes) for value in group] for group in values]
         self._host = np.zeros(self._size, np.uint8)
         self._card = api.device_array(self._size, np.uint8)
-        base = int(self._card.__cuda_array_interface__["data"][0])
+        base = _address(self._card)
         for group, places in zip(values, headers, strict=True):
             for value, place in zip(group, places, strict=True):
                 form = packed(value, lambda array: base + self._arrays[_key(array)][0])
@@ -69,8 +66,9 @@ class Arena:
             array[...] = self._part(start, array)
 
     def _part(self, start: int, array: Any) -> npt.NDArray[Any]:
-        here = self._host[start : start + array.nbytes]
-        return here.view(array.dtype).reshape(array.shape)
+        here: npt.NDArray[Any] = self._host[start : start + array.nbytes]
+        whole: npt.NDArray[Any] = here.view(array.dtype).reshape(array.shape)
+        return whole
 
 
 def arrays_in(value: Any) -> Iterator[Any]:
@@ -80,6 +78,16 @@ def arrays_in(value: Any) -> Iterator[Any]:
     elif isinstance(value, tuple):
         for each in value:
             yield from arrays_in(each)
+
+
+def _nowhere(array: Any) -> int:
+    return 0
+
+
+def _address(card: Any) -> int:
+    """Where the first byte is on the card; a simulated one has the memory of the processor."""
+    form = getattr(card, "__cuda_array_interface__", None) or card.__array_interface__
+    return int(form["data"][0])
 
 
 def _key(array: Any) -> int:

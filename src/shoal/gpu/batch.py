@@ -54,6 +54,11 @@ class Batch:
             self._kernel[self._shape](*self._columns, first, last, every, tail)
             finish()
 
+    def send(self) -> None:
+        """Take the state of all runs to the card again, after a change of it here."""
+        if self._arena is not None:
+            self._arena.send()
+
     def fetch(self) -> None:
         """Bring the state of all runs back."""
         if self._arena is not None:

@@ -1,7 +1,6 @@
 """The graphics card: whether there is one, what it is called, and how kernels are compiled for it."""
 
 import os
-import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -10,6 +9,7 @@ from shoal.compiler.kernel import NumbaError
 from shoal.compiler.reason import reason_in
 from shoal.core.errors import DeviceError, MissingExtraError
 
+REGISTERS = 80  # of a thread: so many that 8 runs of up to 64 agents share a multiprocessor
 SIMULATED = "a simulated card"
 
 
@@ -21,12 +21,12 @@ def card_name() -> str:
     MissingExtraError : numba-cuda is absent
     DeviceError : there is no card, or its driver does not answer
     """
-    cuda = _cuda()
+    api = _cuda()
     if simulated():
         return SIMULATED
     try:
-        cuda.current_context()
-        name = cuda.get_current_device().name
+        api.current_context()
+        name = api.get_current_device().name
     except Exception as failure:  # of many kinds: no driver, no card, one that is too old or busy
         problem = f"no graphics card answers: {_first_line(failure)}"
         raise DeviceError("--device cuda", problem, "see that nvidia-smi lists one, or leave --device out") from None
@@ -46,9 +46,7 @@ def _cuda() -> Any:
         from numba import cuda
     except ImportError:
         raise MissingExtraError.of("numba-cuda", "gpu", "--device cuda") from None
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        return cuda
+    return cuda
 
 
 def _first_line(failure: BaseException) -> str:
@@ -63,7 +61,7 @@ def compiled(function: Callable[..., Any]) -> Any:
     jit: Any = cuda.jit
     if simulated():
         return jit(function)
-    return jit(function, max_registers=128)
+    return jit(function, max_registers=REGISTERS)
 
 
 def finish() -> None:
@@ -87,8 +85,9 @@ def as_on_the_cpu() -> Iterator[None]:
     if simulated():
         yield
         return
-    from numba.cuda.cudadrv import nvvm
+    from numba.cuda.cudadrv import nvvm as module
 
+    nvvm: Any = module
     usual = nvvm.compile_ir
 
     def without_fma(code: Any, **options: Any) -> Any:

@@ -10,7 +10,7 @@ last warp that works, while the others go on. A barrier stands wherever somebody
 
 from typing import Any
 
-from numba import cuda
+import numba.cuda
 
 from shoal.compiler.placed import part
 from shoal.core.draws import TARGET_STREAM, split
@@ -43,6 +43,7 @@ from shoal.world.radio import adapt_degree, hide_far_away, limit_links, row, sai
 from shoal.world.sensing import believes, detects
 from shoal.world.targets.dispatch import advance_target
 
+cuda: Any = numba.cuda  # it has no types that mypy sees
 _device: Any = cuda.jit(device=True)
 INFINITE = float("inf")
 
@@ -171,7 +172,8 @@ def listen_and_decide(stage, world, swarm, radio, links, memories, params, now, 
             break
     choose_leaders(arrived, listeners, links, params, agents, leader, links.low)
     alone = Scratch(links, leader, sums, scratch.a, scratch.b, scratch.c, scratch.d, scratch.sight)
-    parts = Parts(stage, 0, world, swarm, radio, part(stage, TARGETS), alone)
+    phases: Any = 0  # there are none on a card
+    parts = Parts(stage, phases, world, swarm, radio, part(stage, TARGETS), alone)
     decide(swarm, parts, arrived, memories, params, now, i)
 
 

@@ -38,8 +38,8 @@ def tally_coverage(tally, step, world, swarm, targets, scratch):
     high = CELLS / (2.0 * world.half_y)
     for i in range(world.agents):
         if swarm.alive[i] > 0.0:
-            column = int(math.floor((swarm.x[i] + world.half_x) * wide))
-            row = int(math.floor((swarm.y[i] + world.half_y) * high))
+            column = int(math.floor((swarm.x[i] + world.half_x) * wide))  # noqa: RUF046  (on a card it is a float)
+            row = int(math.floor((swarm.y[i] + world.half_y) * high))  # noqa: RUF046
             cell = min(max(row, 0), CELLS - 1) * CELLS + min(max(column, 0), CELLS - 1)
             if seen[0, cell] < 2 * window:
                 seen[0, cell] = mark

@@ -1,0 +1,194 @@
+"""Runs on a real graphics card: the same bits as on the processor? and how fast? One table.
+
+    python benchmarks/device_check.py              all of it; under four minutes with 16 cores and one H100
+    python benchmarks/device_check.py --short      no whole paper, and the paper's strategy alone
+
+Needs numba-cuda and a card; docs/how-to/gpu.md keeps the last output.
+"""
+
+import argparse
+import fcntl
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+import time
+from concurrent.futures import ThreadPoolExecutor
+from itertools import product
+from typing import Any
+
+import numba
+import numpy as np
+
+from shoal.compiler.kernel import kernel
+from shoal.core.agents import NEVER
+from shoal.gpu.batch import Batch, Work
+from shoal.gpu.card import card_name
+from shoal.run.on_card import run_on_card
+from shoal.run.simulation import Simulation
+from shoal.run.state import arrays_of
+from shoal.scenario.load import load
+from shoal.strategies import CATALOGUE
+
+STOPS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)  # steps at which states are compared
+CASES: dict[str, dict[str, Any]] = {
+    "the paper's": {},
+    "k = 49": {"neighbors": 49},
+    "41 agents, k = 6": {"agents": 41, "neighbors": 6},
+    "range, loss, delay": {"network.range": "6 m", "network.loss": 0.2, "network.delay": 3},
+    "reports every 0.5 s": {"network.interval": "0.5 s"},
+    "sensors that err": {"fleets.BoB-1.detection_probability": 0.7, "fleets.BoB-0.false_alarm_probability": 0.01},
+    "losses": {"losses": [{"step": 50, "count": 10}]},
+    "line": {"targets": [{"kind": "line", "speed": 3.0, "radius": 0.5, "margin": 0.5}]},
+}
+
+
+def compare(stops: tuple[int, ...] = STOPS, runs: int = 4, **changes: Any) -> str:
+    """Run on both, and say until when all numbers are the same bits, and by how much they differ then."""
+    scenario = load("oceans2020", **changes)
+    here = [Simulation(scenario, run) for run in range(runs)]
+    there = [Simulation(scenario, run) for run in range(runs)]
+    batch = Batch([Work(*each.work()) for each in there])
+    before = 0
+    for stop in stops:
+        batch.advance(before, stop, NEVER, NEVER)
+        batch.fetch()
+        for each in here:
+            each.advance(stop - before)
+        for each in there:
+            each.worked(stop - before)
+        batch.send()
+        wrong = [name for pair in zip(here, there, strict=True) for name in differing(*pair)]
+        if wrong:
+            far = max(distance(*pair) for pair in zip(here, there, strict=True))
+            return (
+                f"same bits to step {before}; at {stop} up to {far:.1e} m apart ({', '.join(sorted(set(wrong))[:3])})"
+            )
+        before = stop
+    return f"same bits, all of {before} steps"
+
+
+def differing(one: Simulation, other: Simulation) -> list[str]:
+    """Names of the arrays of two states that differ, padding aside."""
+    agents = one.scenario.agents
+    states = [dict(arrays_of(each.moment)) for each in (one, other)]
+    ends = {"swarm": np.s_[:agents], "air": np.s_[:, :agents]}
+    cut = [{n: a[ends.get(n.split(".")[0], ...)] for n, a in each.items()} for each in states]
+    return [name for name, array in cut[0].items() if not np.array_equal(array, cut[1][name], equal_nan=True)]
+
+
+def distance(one: Simulation, other: Simulation) -> float:
+    """The most that an agent is elsewhere [m]."""
+    agents = one.scenario.agents
+    return float(np.hypot(*((getattr(one.swarm, c) - getattr(other.swarm, c))[:agents] for c in "xy")).max())
+
+
+def paper(steps: int, replicates: int) -> list[Simulation]:
+    """The runs of the paper's figures: 12 k x 4 target speeds x 2 swarms, each so many times."""
+    cells = product(range(10, 46, 3), (3.0, 4.0, 5.0, 6.0), (0, 15))
+    scenarios = [load("oceans2020", neighbors=k, target_speed=v, fast=f, steps=steps) for k, v, f in cells]
+    return [Simulation(each, run) for each in scenarios for run in range(replicates)]
+
+
+def speed(steps: int, replicates: int) -> str:
+    """Time that many runs of the paper: to set up, and on the card with the way there and back."""
+    begun = time.perf_counter()
+    simulations = paper(steps, replicates)
+    ready = time.perf_counter()
+    run_on_card(simulations)
+    done = time.perf_counter()
+    work = len(simulations) * 50 * steps
+    shares = [float(each.tally.on_target.sum() / each.tally.steps.sum()) for each in simulations]
+    return (
+        f"{work:.2g} agent-steps, {len(simulations)} runs x {steps:,}: {done - ready:.2f} s on the card "
+        f"({work / (done - ready) / 1e9:.2f}e9/s), {ready - begun:.2f} s to set up; on target {np.mean(shares):.3f}"
+    )
+
+
+def launches(registers: int, metrics: bool, steps: int = 500) -> str:
+    """Time the launches alone of 960 runs, with so many registers per thread, with metrics or without."""
+    from shoal.gpu import card, step
+
+    card.REGISTERS = registers
+    if not metrics:
+        for name in ("measure_before_move", "measure_links", "measure_after_move"):
+            setattr(step, name, _count_nothing)
+    batch = Batch([Work(*each.work()) for each in paper(steps, 10)])
+    batch.advance(0, 50, NEVER, NEVER)  # compiles
+    with open(os.path.join(tempfile.gettempdir(), "shoal-device-check"), "w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)  # one at a time on the card
+        begun = time.perf_counter()
+        batch.advance(50, steps, NEVER, NEVER)
+        seconds = time.perf_counter() - begun
+    per_step = seconds / (steps - 50)
+    return f"{per_step * 1e6:.1f} us per step of 960 runs; the whole paper would take {per_step * 100_000:.1f} s"
+
+
+@kernel
+def _count_nothing(tally, now, world, swarm, targets, scratch):  # type: ignore[no-untyped-def]
+    """In place of metrics."""
+
+
+PROBES = {f"{number} registers": (number, True) for number in (64, 80, 96, 128, 168)}
+PROBES["no metrics, 96 registers"] = 96, False
+
+
+def row(what: str, result: str) -> None:
+    """Print a row of the table."""
+    print(f"| {what} | {result} |", flush=True)
+
+
+def apart(option: str, name: str) -> str:
+    """Compare a strategy or time a probe in a process of its own: each is compiled."""
+    code = [sys.executable, __file__, option, name]
+    found = subprocess.run(code, capture_output=True, text=True, timeout=240, check=False)
+    lines = found.stdout.strip().splitlines()
+    return lines[-1] if lines and found.returncode == 0 else f"failed: {found.stderr.strip().splitlines()[-1:]}"
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--strategy")
+    parser.add_argument("--probe")
+    parser.add_argument("--short", action="store_true")
+    chosen = parser.parse_args()
+    if chosen.probe:
+        print(launches(*PROBES[chosen.probe]))
+        return
+    if chosen.strategy:
+        print(compare(runs=2, strategy=chosen.strategy))
+        return
+    import numba_cuda
+
+    versions = f"numba {numba.__version__}, numba-cuda {numba_cuda.__version__}, numpy {np.__version__}"
+    print("| what | result |\n| --- | --- |")
+    row("card", card_name())
+    row("with", f"{versions}, Python {platform.python_version()}, {os.cpu_count()} cores")
+    begun = time.perf_counter()
+    Simulation(load("oceans2020")).advance(1)
+    row("compiled for the processor", f"{time.perf_counter() - begun:.1f} s")
+    begun = time.perf_counter()
+    row("same as on the processor: the paper's run", compare())
+    row("compiled for the card, and that", f"{time.perf_counter() - begun:.1f} s")
+    row("speed, 96 runs", speed(2_000, 1))
+    row("speed, 960 runs", speed(2_000, 10))
+    if not chosen.short:
+        row("speed, the whole paper", speed(100_000, 10))
+        row("speed, 2,880 runs", speed(2_000, 30))
+    for name, changes in list(CASES.items())[1:]:
+        try:
+            row(f"same as on the processor: {name}", compare(**changes))
+        except Exception as failure:  # the table goes on
+            row(f"same as on the processor: {name}", f"failed: {failure!r:.200}")
+    if not chosen.short:
+        others = [name for name in sorted(CATALOGUE) if name != "knn-pso"]
+        tasks = [*(("--probe", name) for name in PROBES), *(("--strategy", name) for name in others)]
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            for (option, name), result in zip(tasks, pool.map(lambda task: apart(*task), tasks), strict=True):
+                row(f"launches alone: {name}" if option == "--probe" else f"same as on the processor: {name}", result)
+
+
+if __name__ == "__main__":
+    main()
