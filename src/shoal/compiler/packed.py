@@ -3,8 +3,8 @@
 The layout is that of compiler/placed.py; only arrays are where the caller says.
 """
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import typeof, types
@@ -13,16 +13,73 @@ from numba.extending import lower_builtin, type_callable
 from shoal.compiler.kernel import compiles
 from shoal.compiler.placed import layout, put, size_of, unowned
 
+_ADDRESS = 32  # bytes from the beginning of an array's structure to where it says where its numbers are
 _anything: Any = types.Any  # numba has no types that mypy sees
-Where = Callable[[Any], int]  # the address of an array's first element, there
 
 
-def packed(value: Any, where: Where) -> Any:
-    """A NamedTuple as bytes; of its arrays, the form, and the address that `where` says."""
-    kind = typeof(value)
-    room = np.zeros(size_of(kind), np.uint8)
-    put(value, layout(kind), room, where)
-    return room
+class Parts(NamedTuple):
+    """What a NamedTuple consists of, in the order of its fields: arrays, where they are, and numbers."""
+
+    arrays: list[Any]
+    addresses: list[int]
+    numbers: list[Any]
+
+
+class Form:
+    """How NamedTuples of the type of a first one lie in memory.
+
+    Attributes
+    ----------
+    size : bytes of each
+    """
+
+    def __init__(self, first: Any) -> None:
+        kind = typeof(first)
+        self.size = size_of(kind)
+        self._places: list[int] = []  # of arrays
+        self._numbers: list[int] = []  # and of numbers
+        self._find(first, layout(kind))
+        self._words = np.array(self._places, np.int64) + _ADDRESS
+        self._model = np.zeros(self.size, np.uint8)
+        self._shapes: list[tuple[int, ...]] = []
+
+    def _find(self, value: Any, where: Any) -> None:
+        if isinstance(value, tuple):
+            for each, place in zip(value, where, strict=True):
+                self._find(each, place)
+        else:
+            (self._places if isinstance(value, np.ndarray) else self._numbers).append(where)
+
+    def parts(self, value: Any) -> Parts:
+        """The parts of one."""
+        found = Parts([], [], [])
+        _take_apart(value, found)
+        return found
+
+    def packed(self, parts: Parts, addresses: Sequence[int]) -> Any:
+        """One as bytes, with its arrays at these addresses."""
+        shapes = [array.shape for array in parts.arrays]
+        if shapes != self._shapes:
+            for array, place in zip(parts.arrays, self._places, strict=True):
+                put(array, place, self._model)
+            self._shapes = shapes
+        room = self._model.copy()
+        for number, place in zip(parts.numbers, self._numbers, strict=True):
+            put(number, place, room)
+        words = np.array(addresses, np.int64).view(np.uint8).reshape(-1, 8)
+        room[self._words[:, None] + np.arange(8)] = words
+        return room
+
+
+def _take_apart(value: Any, found: Parts) -> None:
+    if isinstance(value, tuple):
+        for each in value:
+            _take_apart(each, found)
+    elif isinstance(value, np.ndarray):
+        found.arrays.append(value)
+        found.addresses.append(value.ctypes.data)
+    else:
+        found.numbers.append(value)
 
 
 def reader(value: Any) -> Callable[[Any], Any]:

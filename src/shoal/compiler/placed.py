@@ -104,20 +104,13 @@ def _leaves(value: Any, name: str) -> Any:
         yield name, np.asarray(value).dtype.name
 
 
-def _here(array: Any) -> int:
-    return int(array.ctypes.data)
-
-
-def put(value: Any, where: Any, room: Any, address_of: Callable[[Any], int] = _here) -> None:
-    """Write a value to its place in a room, as kernels read it: of arrays, what numba's array structure says.
-
-    where : its layout; address_of : where the numbers of an array are
-    """
+def put(value: Any, where: Any, room: Any) -> None:
+    """Write a value to its place in a room, as kernels read it: of arrays, what numba's array structure says."""
     if isinstance(value, tuple):
         for each, place in zip(value, where, strict=True):
-            put(each, place, room, address_of)
+            put(each, place, room)
     elif isinstance(value, np.ndarray):
-        address = address_of(value)
+        address = value.ctypes.data
         form = f"=2Q2qQ{2 * value.ndim}q"
         pack_into(form, room, where, 0, 0, value.size, value.itemsize, address, *value.shape, *value.strides)
     else:

@@ -38,7 +38,7 @@ class Batch:
         self._columns: list[Any] = [list(column) for column in zip(*works, strict=True)]
         if compiles():
             self._arena = Arena(works)
-            self._columns = [np.ascontiguousarray(column) for column in self._arena.addresses.T]
+            self._columns = self._arena.columns
         self._kernel = _kernel_for(_Kind(works[0].memories), _Kind(works[0].params))
         most = max(each.stage.world.agents for each in works)
         self._shape = len(works), (-(-most // _WARP) * _WARP if compiles() else most) + 1

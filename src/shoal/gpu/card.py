@@ -1,6 +1,7 @@
 """The graphics card: whether there is one, what it is called, and how kernels are compiled for it."""
 
 import os
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -95,7 +96,9 @@ def as_on_the_cpu() -> Iterator[None]:
 
     nvvm.compile_ir = without_fma
     try:
-        yield
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of launches of few runs, which cannot fill a card
+            yield
     except NumbaError as error:
         raise DeviceError(
             "--device cuda", f"cannot compile this: {reason_in(str(error))}", "leave --device out"
