@@ -23,8 +23,8 @@ import numpy as np
 
 from shoal.compiler.kernel import kernel
 from shoal.core.agents import NEVER
-from shoal.gpu.batch import Batch, Work
-from shoal.gpu.card import card_name
+from shoal.engine.gpu.batch import Batch, Work
+from shoal.engine.gpu.card import card_name
 from shoal.run.on_card import run_on_card
 from shoal.run.simulation import Simulation
 from shoal.run.state import arrays_of
@@ -108,7 +108,7 @@ def speed(steps: int, replicates: int) -> str:
 
 def launches(registers: int, metrics: bool, steps: int = 500) -> str:
     """Time the launches alone of 960 runs, with so many registers per thread, with metrics or without."""
-    from shoal.gpu import card, step
+    from shoal.engine.gpu import card, step
 
     card.REGISTERS = registers
     if not metrics:

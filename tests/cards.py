@@ -77,7 +77,7 @@ def memory():
     import numba
 
     from shoal.compiler.packed import reader
-    from shoal.gpu.arena import Arena
+    from shoal.engine.gpu.arena import Arena
     from shoal.strategies import CATALOGUE
 
     params = CATALOGUE["knn-pso"].params()
@@ -108,4 +108,4 @@ def memory():
 
 if __name__ == "__main__":
     task, *arguments = sys.argv[1:]
-    print(json.dumps(globals()[task](*map(json.loads, arguments))))
+    sys.stdout.write(json.dumps(globals()[task](*map(json.loads, arguments))) + "\n")

@@ -23,7 +23,12 @@ CASES = [
     {"fleets.BoB-1.detection_probability": 0.6, "fleets.BoB-0.false_alarm_probability": 0.1},
     {"losses": [{"step": 4, "count": 3}]},
     {"fleets.BoB-0.max_acceleration": 0.5, "fleets.BoB-0.position_error": 0.2},
-    {"targets": [{"kind": "line", "speed": 3.0, "radius": 0.5, "margin": 0.5}, {"kind": "still", "radius": 0.5, "x": 1.0, "y": 2.0}]},
+    {
+        "targets": [
+            {"kind": "line", "speed": 3.0, "radius": 0.5, "margin": 0.5},
+            {"kind": "still", "radius": 0.5, "x": 1.0, "y": 2.0},
+        ]
+    },
     {"fleets.BoB-0.strategy": {"name": "encircle"}, "fleets.BoB-1.strategy": {"name": "knn-pso"}},
     {"motion.speed_rule": "divide"},
 ]

@@ -42,7 +42,7 @@ def check_card(scenarios: Iterable[Scenario]) -> str:
     MissingExtraError : numba-cuda is absent
     DeviceError : there is no card, or a scenario has what it cannot do
     """
-    from shoal.gpu.card import card_name
+    from shoal.engine.gpu.card import card_name
 
     name = card_name()
     for scenario in scenarios:
@@ -53,7 +53,7 @@ def check_card(scenarios: Iterable[Scenario]) -> str:
 
 def why_not(scenario: Scenario) -> str | None:
     """What of a scenario a card cannot do, in words; None if it can all of it."""
-    from shoal.gpu.batch import MOST_AGENTS
+    from shoal.engine.gpu.batch import MOST_AGENTS
 
     packages = {each.package for each in (*DECLARED, *KINDS) if each.package is not None}
     reasons = {
@@ -126,7 +126,7 @@ def _launches(
     count: Callable[[int], None] | None,
 ) -> Iterator[tuple[int, Trajectory | ShoalError]]:
     """Launch after launch; yields the frames of each, or what is wrong. Without frames all stays on the card."""
-    from shoal.gpu.batch import Batch, Work
+    from shoal.engine.gpu.batch import Batch, Work
 
     steps, chunk, number = together[0].scenario.steps, _FIRST, 0
     batch: Any = None

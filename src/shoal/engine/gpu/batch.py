@@ -8,9 +8,9 @@ import numpy as np
 
 from shoal.compiler.kernel import compiles
 from shoal.compiler.packed import reader
+from shoal.engine.gpu.arena import Arena
+from shoal.engine.gpu.card import as_on_the_cpu, compiled, finish
 from shoal.engine.stage import Stage
-from shoal.gpu.arena import Arena
-from shoal.gpu.card import as_on_the_cpu, compiled, finish
 
 MOST_AGENTS = 480  # a block has so many threads, and each of them so many registers
 _WARP = 32
@@ -88,7 +88,7 @@ def _shape_of(value: Any) -> Any:
 
 @cache
 def _kernel_for(memories: _Kind, params: _Kind) -> Any:
-    from shoal.gpu.step import make_rollout
+    from shoal.engine.gpu.step import make_rollout
 
     return compiled(make_rollout(reader(memories.value), reader(params.value)))
 

@@ -68,7 +68,7 @@ def step(stage, memories, params, now, i, clerk):
         cuda.syncthreads()  # what is decided is not kept yet
     if agent:
         links = part(stage, SCRATCH).links
-        listen_and_decide(stage, world, swarm, radio, lane_of(links, i, world.agents), memories, params, now, i)
+        listen_and_decide(stage, lane_of(links, i, world.agents), memories, params, now, i)
     cuda.syncthreads()
     if clerk:
         targets, scratch = part(stage, TARGETS), part(stage, SCRATCH)
@@ -133,9 +133,9 @@ def sense(stage, world, swarm, now, i, agent, clerk):
 
 
 @_device
-def listen_and_decide(stage, world, swarm, radio, links, memories, params, now, i):
+def listen_and_decide(stage, links, memories, params, now, i):
     """Agent i finds out whom it hears, sums up their influence, chooses whom to follow and decides."""
-    scratch = part(stage, SCRATCH)
+    world, swarm, radio, scratch = part(stage, WORLD), part(stage, SWARM), part(stage, RADIO), part(stage, SCRATCH)
     last = i + 1
     agents, number = world.agents, now.number
     reports = said(radio, swarm, number)
