@@ -10,7 +10,7 @@ import numpy as np
 from numba import typeof, types
 from numba.extending import lower_builtin, type_callable
 
-from shoal.compiler.kernel import compiles
+from shoal.compiler.late import compiles
 from shoal.compiler.placed import layout, put, size_of, unowned
 
 _ADDRESS = 32  # bytes from the beginning of an array's structure to where it says where its numbers are

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from shoal.compiler.kernel import compiles
+from shoal.compiler.late import compiles
 from shoal.compiler.packed import reader
 from shoal.engine.gpu.arena import Arena
 from shoal.engine.gpu.card import as_on_the_cpu, compiled, finish

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from shoal.compiler.kernel import NumbaError
+from shoal.compiler.late import compiler_errors
 from shoal.compiler.reason import reason_in
 from shoal.core.errors import DeviceError, MissingExtraError
 
@@ -99,7 +99,7 @@ def as_on_the_cpu() -> Iterator[None]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of launches of few runs, which cannot fill a card
             yield
-    except NumbaError as error:
+    except compiler_errors() as error:
         raise DeviceError(
             "--device cuda", f"cannot compile this: {reason_in(str(error))}", "leave --device out"
         ) from error
