@@ -17,16 +17,23 @@ def tally_closest(tally, step, world, swarm, targets, scratch):
         return
     least = tally.closest[0]
     for i in range(world.agents):
-        x = swarm.x[i]
-        y = swarm.y[i]
-        if swarm.alive[i] > 0.0:
-            for j in range(i):
-                dx = swarm.x[j] - x
-                dy = swarm.y[j] - y
-                square = dx * dx + dy * dy
-                if square < least and swarm.alive[j] > 0.0:
-                    least = square
+        least = least_square(swarm, i, least)
     tally.closest[0] = least
+
+
+@kernel
+def least_square(swarm, i, least):
+    """The least of a square [m^2] and those of the distances from agent i to the present ones before it."""
+    x = swarm.x[i]
+    y = swarm.y[i]
+    if swarm.alive[i] > 0.0:
+        for j in range(i):
+            dx = swarm.x[j] - x
+            dy = swarm.y[j] - y
+            square = dx * dx + dy * dy
+            if square < least and swarm.alive[j] > 0.0:
+                least = square
+    return least
 
 
 def closest(tally: Any, facts: Facts) -> float:

@@ -17,8 +17,29 @@ def tally_graph(tally, step, world, swarm, targets, scratch):
     """
     if world.sequential or step.number % EVERY != 0:
         return
+    for i in range(world.agents):
+        scratch.a[i] = clustering_of(scratch.links, swarm.alive, world.agents, i)
+    add_graph(tally, step, world, swarm, scratch)
+
+
+@kernel
+def clustering_of(links, alive, agents, i):
+    """Clustering of agent i."""
+    heard = 0
+    linked_pairs = 0
+    for one in range(agents):
+        if linked(links, one, i) and alive[one] > 0.0:
+            heard += 1
+            for other in range(one):
+                both = linked(links, other, i) and alive[other] > 0.0
+                linked_pairs += both and (linked(links, one, other) or linked(links, other, one))
+    return 2.0 * linked_pairs / (heard * (heard - 1)) if heard > 1 else 0.0
+
+
+@kernel
+def add_graph(tally, step, world, swarm, scratch):
+    """Count the components, and add up the clustering of all agents, which is in scratch.a."""
     agents, alive, links, part = world.agents, swarm.alive, scratch.links, scratch.leader
-    listened = links.wanted  # scratch by now
     for i in range(agents):
         part[i] = i
     for i in range(agents):
@@ -27,23 +48,12 @@ def tally_graph(tally, step, world, swarm, targets, scratch):
                 _join(part, i, j)
     components = 0
     active = 0
+    total = 0.0
     for i in range(agents):
         there = alive[i] > 0.0
         components += there and part[i] == i
         active += there
-    total = 0.0
-    for i in range(agents):
-        heard = 0
-        for j in range(agents):
-            if linked(links, j, i) and alive[j] > 0.0:
-                listened[heard] = j
-                heard += 1
-        linked_pairs = 0
-        for a in range(heard):
-            for b in range(a):
-                one, other = listened[a], listened[b]
-                linked_pairs += linked(links, one, other) or linked(links, other, one)
-        total += 2.0 * linked_pairs / (heard * (heard - 1)) if heard > 1 else 0.0
+        total += scratch.a[i]
     tally.graphs[step.batch] += 1.0
     tally.components[step.batch] += components
     tally.clustering[step.batch] += total / max(active, 1)

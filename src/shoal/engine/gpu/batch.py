@@ -41,7 +41,7 @@ class Batch:
             self._columns = self._arena.columns
         self._kernel = _kernel_for(_Kind(works[0].memories), _Kind(works[0].params))
         most = max(each.stage.world.agents for each in works)
-        self._shape = len(works), (-(-most // _WARP) * _WARP if compiles() else most) + 1
+        self._shape = len(works), -(-(most + 1) // _WARP) * _WARP if compiles() else most + 1
 
     def advance(self, first: int, last: int, every: int, tail: int) -> None:
         """Run steps first..last of all, and wait; runs with room keep frames of every `every`-th, and all from `tail`.

@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from shoal.compiler.late import compiler_errors
+from shoal.compiler.late import Kernel, compiler_errors
 from shoal.compiler.reason import reason_in
 from shoal.core.errors import DeviceError, MissingExtraError
 
-REGISTERS = 80  # of a thread: so many that 8 runs of up to 64 agents share a multiprocessor
+REGISTERS = 128  # of a thread: so many that 8 runs of up to 63 agents share a multiprocessor
 SIMULATED = "a simulated card"
 
 
@@ -62,7 +62,7 @@ def compiled(function: Callable[..., Any]) -> Any:
     jit: Any = cuda.jit
     if simulated():
         return jit(function)
-    return jit(function, max_registers=REGISTERS)
+    return jit(function, max_registers=REGISTERS, lto=False)  # linked as it is: a linker that optimizes fuses
 
 
 def finish() -> None:
@@ -75,9 +75,10 @@ def finish() -> None:
 
 @contextmanager
 def as_on_the_cpu() -> Iterator[None]:
-    """Compile without fused multiply-add inside, which rounds once where the CPU rounds twice.
+    """Compile the engine's kernels, without fused multiply-add, which rounds once where the processor rounds twice.
 
     Numba has no option for it; this hands NVVM its own. It then writes mul.rn and add.rn, which nothing later fuses.
+    Kernels are stand-ins (compiler/late.py), which numba-cuda does not know: it is handed what they stand for.
 
     Raises
     ------
@@ -86,15 +87,20 @@ def as_on_the_cpu() -> Iterator[None]:
     if simulated():
         yield
         return
+    from numba.cuda import target as typing
     from numba.cuda.cudadrv import nvvm as module
 
     nvvm: Any = module
-    usual = nvvm.compile_ir
+    context: Any = typing.CUDATypingContext
+    compile_ir, resolve = nvvm.compile_ir, context.resolve_value_type
 
     def without_fma(code: Any, **options: Any) -> Any:
-        return usual(code, **{**options, "fma": False})
+        return compile_ir(code, **{**options, "fma": False})
 
-    nvvm.compile_ir = without_fma
+    def resolve_kernels(self: Any, value: Any) -> Any:
+        return resolve(self, value.dispatcher if isinstance(value, Kernel) else value)
+
+    nvvm.compile_ir, context.resolve_value_type = without_fma, resolve_kernels
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of launches of few runs, which cannot fill a card
@@ -104,4 +110,4 @@ def as_on_the_cpu() -> Iterator[None]:
             "--device cuda", f"cannot compile this: {reason_in(str(error))}", "leave --device out"
         ) from error
     finally:
-        nvvm.compile_ir = usual
+        nvvm.compile_ir, context.resolve_value_type = compile_ir, resolve

@@ -16,7 +16,14 @@ from shoal.compiler.placed import part
 from shoal.core.draws import TARGET_STREAM, split
 from shoal.engine.frames import keep_frame, keep_links
 from shoal.engine.listen import Arrived, Listeners, choose_leaders, sum_influence
-from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
+from shoal.engine.gpu.measure import (
+    add_after_move,
+    add_before_move,
+    add_linked,
+    add_own,
+    look_at_graph,
+    look_before_move,
+)
 from shoal.engine.phases import go, settle_links
 from shoal.engine.stage import (
     FRAMES,
@@ -46,43 +53,61 @@ from shoal.world.targets.dispatch import advance_target
 cuda: Any = numba.cuda  # it has no types that mypy sees
 _device: Any = cuda.jit(device=True)
 INFINITE = float("inf")
+DOUBLE, INTEGER = numba.float64, numba.int64
+SUMS = 2  # that every strategy of ours has
 
 
 @_device
 def step(stage, memories, params, now, i, clerk):
-    """Advance a run by a time-step, as all threads of its block together."""
-    world = part(stage, WORLD)
-    swarm = part(stage, SWARM)
-    radio = part(stage, RADIO)
-    agent = i < world.agents
-    sense(stage, world, swarm, now, i, agent, clerk)
-    if clerk and speaks(radio, now.number):
-        send(radio, swarm, now.number)
-    cuda.syncthreads()
-    if clerk:
-        targets, scratch = part(stage, TARGETS), part(stage, SCRATCH)
-        measure_before_move(part(stage, TALLY), Step(now.number, now.batch, 0), world, swarm, targets, scratch)
+    """Advance a run by a time-step, as all threads of its block together.
+
+    Every section reads the parts of the stage that it needs anew: what all need together is more than a thread holds.
+    """
+    agent = i < part(stage, WORLD).agents
+    engaged = sense(stage, now, i, agent, clerk)
+    when = Step(now.number, now.batch, 0)
+    look_before_move(
+        part(stage, TALLY), when, part(stage, WORLD), part(stage, SWARM), part(stage, SCRATCH), i, agent, clerk
+    )
     if now.frame >= 0:
         if clerk:
-            keep_frame(part(stage, FRAMES), now.frame, now.number, world, swarm, part(stage, TARGETS))
+            keep_frame(
+                part(stage, FRAMES), now.frame, now.number, part(stage, WORLD), part(stage, SWARM), part(stage, TARGETS)
+            )
         cuda.syncthreads()  # what is decided is not kept yet
     if agent:
-        links = part(stage, SCRATCH).links
-        listen_and_decide(stage, lane_of(links, i, world.agents), memories, params, now, i)
+        listen_and_decide(stage, memories, params, now, i)
+    elif clerk:
+        count_before_move(stage, when, engaged)
     cuda.syncthreads()
-    if clerk:
-        targets, scratch = part(stage, TARGETS), part(stage, SCRATCH)
-        measure_links(part(stage, TALLY), Step(now.number, now.batch, 0), world, swarm, targets, scratch)
-        if now.frame >= 0:
-            keep_links(part(stage, FRAMES), now.frame, scratch.links, 0, world.agents)
+    look_at_graph(
+        part(stage, TALLY), when, part(stage, WORLD), part(stage, SWARM), part(stage, SCRATCH), i, agent, clerk
+    )
     if agent:
-        tell(swarm, i, i + 1)
-        links = part(stage, SCRATCH).links
-        move(stage, world, swarm, radio, lane_of(links, i, world.agents), now, i)
+        move(stage, now, when, i)
+    elif clerk:
+        count_linked(stage, now, when)
     cuda.syncthreads()
-    if clerk:
-        conclude(stage, world, swarm, now)
+    conclude(stage, now, when, i, agent, clerk)
     cuda.syncthreads()
+
+
+@_device
+def count_before_move(stage, when, engaged):
+    """What is said and counted before the move."""
+    world, swarm, radio = part(stage, WORLD), part(stage, SWARM), part(stage, RADIO)
+    if speaks(radio, when.number):
+        send(radio, swarm, when.number)
+    add_before_move(part(stage, TALLY), when, world, swarm, part(stage, TARGETS), part(stage, SCRATCH), engaged)
+
+
+@_device
+def count_linked(stage, now, when):
+    """What is counted when agents have listened, and whom they heard where that is kept."""
+    world, scratch = part(stage, WORLD), part(stage, SCRATCH)
+    add_linked(part(stage, TALLY), when, world, part(stage, SWARM), part(stage, TARGETS), scratch)
+    if now.frame >= 0:
+        keep_links(part(stage, FRAMES), now.frame, scratch.links, 0, world.agents)
 
 
 @_device
@@ -106,9 +131,13 @@ def lane_of(links, i, agents):
 
 
 @_device
-def sense(stage, world, swarm, now, i, agent, clerk):
-    """What `shoal.engine.phases.sense_all` does: who is there, who is on target, and where all believe to be."""
-    targets, sea, effects = part(stage, TARGETS), part(stage, SEA), part(stage, NATURE).effects
+def sense(stage, now, i, agent, clerk):
+    """What `shoal.engine.phases.sense_all` does: who is there, who is on target, and where all believe to be.
+
+    Returns how many agents are on a target.
+    """
+    world, swarm, targets = part(stage, WORLD), part(stage, SWARM), part(stage, TARGETS)
+    sea, effects = part(stage, SEA), part(stage, NATURE).effects
     if world.mortal:
         if clerk:
             update_presence(swarm, world, now.number)
@@ -129,15 +158,25 @@ def sense(stage, world, swarm, now, i, agent, clerk):
             swarm.on_target[i] = believes(swarm, effects, now.key, i)
         if world.inexact:
             locate(swarm, i, i + 1)
-    cuda.syncthreads()
+    return cuda.syncthreads_count(1 if on_target else 0)
 
 
 @_device
-def listen_and_decide(stage, links, memories, params, now, i):
-    """Agent i finds out whom it hears, sums up their influence, chooses whom to follow and decides."""
+def listen_and_decide(stage, memories, params, now, i):
+    """Agent i finds out whom it hears, sums up their influence, chooses whom to follow and decides.
+
+    Working arrays of one number each are the thread's own: the compiler keeps them in registers.
+    """
     world, swarm, radio, scratch = part(stage, WORLD), part(stage, SWARM), part(stage, RADIO), part(stage, SCRATCH)
     last = i + 1
     agents, number = world.agents, now.number
+    reach, low, high = cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE)
+    below, above, sums = cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE), cuda.local.array((SUMS, 1), DOUBLE)
+    heard, wanted = cuda.local.array(1, INTEGER), cuda.local.array(1, INTEGER)
+    off, leader = cuda.local.array(1, INTEGER), cuda.local.array(1, INTEGER)
+    lane = lane_of(scratch.links, i, agents)
+    reach[0] = lane.reach[0]
+    links = Links(lane.square, reach, heard, wanted, below, above, low, high, off, lane.rank, lane.order)
     reports = said(radio, swarm, number)
     measure_distances(links, reports.x, reports.y, swarm.fix_x[i:last], swarm.fix_y[i:last], i, agents)
     range_square = radio.range_square
@@ -165,12 +204,12 @@ def listen_and_decide(stage, links, memories, params, now, i):
         world.time_step,
         number * world.time_step,
     )
-    sums, leader = scratch.sums[:, i:last], scratch.leader[i:last]
     for turn in range(2):
         sum_influence(arrived, listeners, links, params, agents, sums)
         if turn == 1 or not settle_links(links, world, swarm, radio, part(stage, RUN), number, i):
             break
     choose_leaders(arrived, listeners, links, params, agents, leader, links.low)
+    lane.reach[0], lane.heard[0] = reach[0], heard[0]
     alone = Scratch(links, leader, sums, scratch.a, scratch.b, scratch.c, scratch.d, scratch.sight)
     phases: Any = 0  # there are none on a card
     parts = Parts(stage, phases, world, swarm, radio, part(stage, TARGETS), alone)
@@ -178,10 +217,13 @@ def listen_and_decide(stage, links, memories, params, now, i):
 
 
 @_device
-def move(stage, world, swarm, radio, links, now, i):
-    """What `shoal.engine.phases.move_agents` does, for agent i."""
+def move(stage, now, when, i):
+    """What `shoal.engine.phases.move_agents` does, for agent i, and what it adds to the metrics then."""
+    world, swarm, radio, scratch = part(stage, WORLD), part(stage, SWARM), part(stage, RADIO), part(stage, SCRATCH)
     last = i + 1
+    tell(swarm, i, last)
     if radio.adaptive:
+        links = lane_of(scratch.links, i, world.agents)
         adapt_degree(swarm, radio, links, said(radio, swarm, now.number), i, last, world)
     if world.inertial:
         limit_maneuver(swarm, i, last, world.time_step)
@@ -191,17 +233,20 @@ def move(stage, world, swarm, radio, links, now, i):
     go(swarm, part(stage, NATURE).effects, world, i, last)
     if world.inexact:
         locate(swarm, i, last)
+    add_own(part(stage, TALLY), when, world, swarm, part(stage, TARGETS), scratch, i)
 
 
 @_device
-def conclude(stage, world, swarm, now):
-    """Measure where agents head while targets are still where they were; then targets move and errors age."""
-    targets, scratch, tracks, sea = part(stage, TARGETS), part(stage, SCRATCH), part(stage, TRACKS), part(stage, SEA)
-    measure_after_move(part(stage, TALLY), Step(now.number, now.batch, 0), world, swarm, targets, scratch)
-    if world.inexact:
-        age_errors(swarm, world, now.key)
-    for j in range(targets.size):
+def conclude(stage, now, when, i, agent, clerk):
+    """Targets move, each by a thread, and errors age."""
+    world, swarm, targets = part(stage, WORLD), part(stage, SWARM), part(stage, TARGETS)
+    tracks, sea = part(stage, TRACKS), part(stage, SEA)
+    if agent and world.inexact:
+        age_errors(swarm, now.key, i, i + 1)
+    for j in range(i, targets.size, cuda.blockDim.x):
         advance_target(targets[j], tracks, swarm, sea, world, now.number + 1, split(now.key, TARGET_STREAM + j))
+    if clerk:
+        add_after_move(part(stage, TALLY), when, world, swarm, targets, part(stage, SCRATCH))
 
 
 def make_rollout(at_memories: Any, at_params: Any) -> Any:
