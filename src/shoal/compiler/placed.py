@@ -62,7 +62,7 @@ class Placed:
         self.address = stage
         if compiles():
             _refuse_other_types(stage)
-            self.room = np.zeros(size_of(_type()), np.uint8)
+            self.room = np.zeros(_size(), np.uint8)
             self.address = self.room.ctypes.data
             put(stage, _layout(), self.room)
 
@@ -94,14 +94,25 @@ def _refuse_other_types(stage: Any) -> None:
 def _leaves(value: Any, name: str) -> Any:
     """Name and kind of every number and array in nested NamedTuples: what numba makes different types of."""
     if isinstance(value, np.ndarray):
-        layout = "C" if value.flags.c_contiguous else "F" if value.flags.f_contiguous else "A"
-        flags = "" if value.flags.aligned and value.flags.writeable else " (read-only or unaligned)"
-        yield name, f"{value.dtype}[{', '.join(':' * value.ndim)}] in {layout} order{flags}"
+        flags = value.flags
+        order = "C" if flags.c_contiguous else "F" if flags.f_contiguous else "A"
+        yield name, _words(value.dtype, value.ndim, order, flags.aligned and flags.writeable)
     elif isinstance(value, tuple):
         for field, each in zip(value._fields, value, strict=True):  # type: ignore[attr-defined]
             yield from _leaves(each, f"{name}.{field}")
     else:
-        yield name, np.asarray(value).dtype.name
+        yield name, _word(np.asarray(value).dtype)
+
+
+@cache
+def _word(dtype: Any) -> str:
+    return str(dtype.name)
+
+
+@cache
+def _words(dtype: Any, dimensions: int, order: str, usual: bool) -> str:
+    flags = "" if usual else " (read-only or unaligned)"
+    return f"{dtype}[{', '.join(':' * dimensions)}] in {order} order{flags}"
 
 
 def put(value: Any, where: Any, room: Any) -> None:
@@ -121,6 +132,11 @@ def put(value: Any, where: Any, room: Any) -> None:
 @cache
 def _layout() -> Any:
     return layout(_type())
+
+
+@cache
+def _size() -> int:
+    return size_of(_type())
 
 
 @cache

@@ -106,7 +106,7 @@ class Simulation:
         self._which = Run(np.uint64(scenario.seed), run, scenario.steps)
         self._phases = addresses(self.world)
         self._placed = Placed(self._stage(self._new_frames(0)))
-        self._looking = Placed(self._stage(self._new_frames(1)))
+        self._looking: Placed | None = None  # until somebody looks
         starts = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
         lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
         with plugin_errors():
@@ -182,7 +182,7 @@ class Simulation:
         done, they are those of agents that all decide first.
         """
         self._keep_frames()
-        self._looking = self._in_place(self._looking)
+        self._looking = self._in_place(self._looking or Placed(self._stage(self._new_frames(1))))
         _look(self._looking.address, self.number)
         seen = Frames(*(array.copy() for array in self._looking.stage.frames))
         return Trajectory.from_frames(seen, self.memory_fields)

@@ -15,7 +15,6 @@ import numba.cuda
 from shoal.compiler.placed import part
 from shoal.core.draws import TARGET_STREAM, split
 from shoal.engine.frames import keep_frame, keep_links
-from shoal.engine.listen import Arrived, Listeners, choose_leaders, sum_influence
 from shoal.engine.gpu.measure import (
     add_after_move,
     add_before_move,
@@ -24,6 +23,7 @@ from shoal.engine.gpu.measure import (
     look_at_graph,
     look_before_move,
 )
+from shoal.engine.listen import Arrived, Listeners, choose_leaders, sum_influence
 from shoal.engine.phases import go, settle_links
 from shoal.engine.stage import (
     FRAMES,
