@@ -165,7 +165,7 @@ def sense(stage, now, i, agent, clerk):
 def listen_and_decide(stage, memories, params, now, i):
     """Agent i finds out whom it hears, sums up their influence, chooses whom to follow and decides.
 
-    Working arrays of one number each are the thread's own: the compiler keeps them in registers.
+    Arrays of one number are the thread's own: of a length that is known, they are kept in registers.
     """
     world, swarm, radio, scratch = part(stage, WORLD), part(stage, SWARM), part(stage, RADIO), part(stage, SCRATCH)
     last = i + 1
@@ -174,11 +174,16 @@ def listen_and_decide(stage, memories, params, now, i):
     below, above, sums = cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE), cuda.local.array((SUMS, 1), DOUBLE)
     heard, wanted = cuda.local.array(1, INTEGER), cuda.local.array(1, INTEGER)
     off, leader = cuda.local.array(1, INTEGER), cuda.local.array(1, INTEGER)
+    x, y, vx = cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE)
+    vy, max_speed, fleet = cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE), cuda.local.array(1, INTEGER)
+    on_target = cuda.local.array(1, numba.boolean)
+    x[0], y[0], vx[0], vy[0] = swarm.fix_x[i], swarm.fix_y[i], swarm.vx[i], swarm.vy[i]
+    on_target[0], max_speed[0], fleet[0] = swarm.on_target[i], swarm.max_speed[i], swarm.fleet[i]
     lane = lane_of(scratch.links, i, agents)
     reach[0] = lane.reach[0]
     links = Links(lane.square, reach, heard, wanted, below, above, low, high, off, lane.rank, lane.order)
     reports = said(radio, swarm, number)
-    measure_distances(links, reports.x, reports.y, swarm.fix_x[i:last], swarm.fix_y[i:last], i, agents)
+    measure_distances(links, reports.x, reports.y, x, y, i, agents)
     range_square = radio.range_square
     if world.inexact:
         hide_far_away(links, swarm, range_square, i, agents)
@@ -192,18 +197,7 @@ def listen_and_decide(stage, memories, params, now, i):
     then = spoken(radio, number)
     told = memories.told if then == number else memories.arrived[row(radio, then)]
     arrived = Arrived(reports, told, then * world.time_step)
-    listeners = Listeners(
-        i,
-        swarm.fix_x[i:last],
-        swarm.fix_y[i:last],
-        swarm.vx[i:last],
-        swarm.vy[i:last],
-        swarm.on_target[i:last],
-        swarm.max_speed[i:last],
-        swarm.fleet[i:last],
-        world.time_step,
-        number * world.time_step,
-    )
+    listeners = Listeners(i, x, y, vx, vy, on_target, max_speed, fleet, world.time_step, number * world.time_step)
     for turn in range(2):
         sum_influence(arrived, listeners, links, params, agents, sums)
         if turn == 1 or not settle_links(links, world, swarm, radio, part(stage, RUN), number, i):
