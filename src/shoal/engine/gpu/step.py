@@ -1,11 +1,11 @@
 """A time-step by a block of threads: that of engine/step.py, each thread being a block of one agent that decides alone.
 
 Thread i does for agent i what the engine does for all lanes, with the engine's own kernels: it hands them the slice
-[i, i + 1) of everything. What is not of one agent (metrics, targets, frames) is the clerk's, the one thread of the
-last warp that works, while the others go on. A barrier stands wherever somebody reads what others write.
+[i, i + 1) of everything. What is not of one agent is the clerk's, the last thread, while agents decide or move: sums of
+metrics, frames; targets move by a thread each. A barrier stands wherever somebody reads what others write.
 
-    agents   sense | link, listen, decide | tell, move |                      |
-    clerk          | measure before moves | links      | headings, targets    |
+    agents   sense, shares of metrics | listen, decide       | tell, move, effort and heading | targets, errors |
+    clerk    mean velocity            | sums before the move | links                          | batteries       |
 """
 
 from typing import Any
@@ -58,31 +58,31 @@ SUMS = 2  # that every strategy of ours has
 
 
 @_device
-def step(stage, memories, params, now, i, clerk):
-    """Advance a run by a time-step, as all threads of its block together.
+def begin_step(stage, now, i, clerk):
+    """All up to what agents decide; returns how many are on a target. All threads of a block come here.
 
     Every section reads the parts of the stage that it needs anew: what all need together is more than a thread holds.
     """
     agent = i < part(stage, WORLD).agents
     engaged = sense(stage, now, i, agent, clerk)
     when = Step(now.number, now.batch, 0)
-    look_before_move(
-        part(stage, TALLY), when, part(stage, WORLD), part(stage, SWARM), part(stage, SCRATCH), i, agent, clerk
-    )
+    tally, world, swarm, scratch = part(stage, TALLY), part(stage, WORLD), part(stage, SWARM), part(stage, SCRATCH)
+    look_before_move(tally, when, world, swarm, scratch, i, agent, clerk)
     if now.frame >= 0:
         if clerk:
-            keep_frame(
-                part(stage, FRAMES), now.frame, now.number, part(stage, WORLD), part(stage, SWARM), part(stage, TARGETS)
-            )
+            keep_frame(part(stage, FRAMES), now.frame, now.number, world, swarm, part(stage, TARGETS))
         cuda.syncthreads()  # what is decided is not kept yet
-    if agent:
-        listen_and_decide(stage, memories, params, now, i)
-    elif clerk:
-        count_before_move(stage, when, engaged)
+    return engaged
+
+
+@_device
+def end_step(stage, now, i, clerk):
+    """All that follows when agents have decided. All threads of a block come here."""
+    agent = i < part(stage, WORLD).agents
+    when = Step(now.number, now.batch, 0)
     cuda.syncthreads()
-    look_at_graph(
-        part(stage, TALLY), when, part(stage, WORLD), part(stage, SWARM), part(stage, SCRATCH), i, agent, clerk
-    )
+    tally, world, swarm, scratch = part(stage, TALLY), part(stage, WORLD), part(stage, SWARM), part(stage, SCRATCH)
+    look_at_graph(tally, when, world, swarm, scratch, i, agent, clerk)
     if agent:
         move(stage, now, when, i)
     elif clerk:
@@ -93,8 +93,9 @@ def step(stage, memories, params, now, i, clerk):
 
 
 @_device
-def count_before_move(stage, when, engaged):
+def count_before_move(stage, now, engaged):
     """What is said and counted before the move."""
+    when = Step(now.number, now.batch, 0)
     world, swarm, radio = part(stage, WORLD), part(stage, SWARM), part(stage, RADIO)
     if speaks(radio, when.number):
         send(radio, swarm, when.number)
@@ -260,13 +261,17 @@ def make_rollout(at_memories: Any, at_params: Any) -> Any:
         batches = part(stage, TALLY).steps.size
         room = part(stage, FRAMES).step.size
         run_key = split(split(run.seed, 0), run.run)
-        remembered, chosen = at_memories(memories[run_number]), at_params(params[run_number])
         frame = 0
         for number in range(first, last):
             batch = min(number * batches // run.steps, batches - 1)
             keeps = room > 0 and (number % every == 0 or number >= tail)
             now = Now(number, batch, split(run_key, number), frame if keeps else -1)
-            step(stage, remembered, chosen, now, i, clerk)
+            engaged = begin_step(stage, now, i, clerk)
+            if i < part(stage, WORLD).agents:
+                listen_and_decide(stage, at_memories(memories[run_number]), at_params(params[run_number]), now, i)
+            elif clerk:
+                count_before_move(stage, now, engaged)
+            end_step(stage, now, i, clerk)
             frame += keeps
 
     return rollout
