@@ -14,7 +14,7 @@ help:
 	@echo "make lint      ruff, mypy, import-linter"
 	@echo "make bench     speed of the engine beside its anchor and plain NumPy"
 	@echo "make arena     the leaderboard of docs/reference/arena.md anew, about ten minutes"
-	@echo "make soak      a fleet under a seeded adversary for MINUTES=60; ends with the seed of the first failure"
+	@echo "make soak      fleets under a seeded adversary on all cores for MINUTES=60; ends with the seed of the first failure"
 	@echo "make notebook  the notebook of the docs anew, as results change"
 	@echo "make web       the viewer's page from its sources (needs npm; users do not)"
 	@echo "make clean     remove the environment and everything made"

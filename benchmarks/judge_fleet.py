@@ -1,6 +1,6 @@
 """Is a fleet in lockstep the simulator? Each strategy that no buoy needs the truth for, over TCP, in several processes.
 
-python benchmarks/judge_fleet.py [STRATEGY ...] [--steps 1000] [--processes 5] [--plain]
+python benchmarks/judge_fleet.py [STRATEGY ...] [--steps 1000] [--processes 5] [--plain] [--set network.max_age=5 ...]
 
 Prints a row per strategy: both SHA-256 of the trajectory, and how long a step took; exits with 1 if any two differ.
 """
@@ -8,6 +8,7 @@ Prints a row per strategy: both SHA-256 of the trajectory, and how long a step t
 import argparse
 import sys
 import time
+import tomllib
 
 from shoal.record.frames import trajectory_sha256
 from shoal.run.fleet.run_fleet import Terms, run_fleet
@@ -24,10 +25,14 @@ def main() -> int:
     options.add_argument("--steps", type=int, default=1000)
     options.add_argument("--processes", type=int, default=5)
     options.add_argument("--plain", action="store_true")
+    options.add_argument("--set", action="append", default=[], help="a field by its path; may be repeated")
     asked = options.parse_args()
+    changes = {
+        path: tomllib.loads(f"is = {value}")["is"] for path, _, value in (each.partition("=") for each in asked.set)
+    }
     differ = 0
     for name in asked.strategies or sighted:
-        scenario = load("oceans2020", strategy=name, steps=asked.steps)
+        scenario = load("oceans2020", strategy=name, steps=asked.steps, **changes)
         begun: list[float] = []
         record = run_fleet(
             scenario,

@@ -1,12 +1,13 @@
 """Deliberate breaks of what a fleet runs on, each in a piece of one line, for tests/run/fleet/test_soak.py."""
 
-from shoal.buoy import orderbook
+from shoal.buoy import inbox, orderbook, said
 from shoal.buoy.aboard import Aboard
 from shoal.buoy.buoy import Buoy
-from shoal.buoy.compiled import CompiledMind
+from shoal.buoy.compiled import CompiledMinds
+from shoal.buoy.hearing import Hearing
 from shoal.buoy.inbox import Inbox
 from shoal.buoy.orderbook import Orderbook
-from shoal.core import messages
+from shoal.buoy.said import Said
 from shoal.run.fleet.log import Log
 from shoal.run.fleet.ocean import Ocean
 from shoal.run.fleet.paced import PacedSea
@@ -34,65 +35,88 @@ MUTANTS = {
     "an order is obeyed by all": (Orderbook, "_ordered", "or id in order.agents", "or True", "obeys"),
     "an order is obeyed a step too soon": (Aboard, "attend", "tick.step + 1", "tick.step", "obeys"),
     "orders are not passed on": (Orderbook, "take", "passed_on(data, passed + 1), *own", "*own", "passed on"),
-    "who holds drifts on": (Buoy, "_as_ordered", "return 0.0, 0.0", "return vx / 2, vy / 2", "who holds"),
+    "who holds drifts on": (Buoy, "_as_ordered", "return 0.0, 0.0", "return 0.5, 0.0", "who holds"),
     "the age rule is a step longer": (Inbox, "newest", "step - max_age)", "step - max_age - 1)", "too old"),
     "the age rule is a step shorter": (Inbox, "newest", "step - max_age)", "step - max_age + 1)", "k nearest"),
     "reports of the next step are heard": (Inbox, "newest", "step + 1)", "step + 2)", "from the future"),
     "the oldest report is heard": (Inbox, "newest", "found |= self.of(then)", "found = self.of(then) | found", "said"),
-    "duplicates are new": (
-        Inbox,
-        "put",
-        "elif report.id in self._said.setdefault(step, {}):",
-        "elif self._said.setdefault(step, {}) is None:",
-        "counted",
-    ),
-    "a duplicate is not counted": (Inbox, "put", 'self.counts["duplicate"] += 1', "pass", "counted"),
-    "late reports are taken": (Inbox, "put", "elif step < max(0, now - self._kept):", "elif step < 0:", "counted"),
+    "duplicates are new": (Inbox, "_keep", "if before is not None:", "if False:", "counted"),
+    "a duplicate is not counted": (Inbox, "_keep", '"duplicate" if', '"" if', "counted"),
+    "the first of two is kept": (Inbox, "_keep", "said[id] = row", "said.setdefault(id, row)", "what was said"),
+    "late reports are taken": (Inbox, "put", "elif step < oldest:", "elif step < 0:", "counted"),
     "reports are late a step too soon": (Inbox, "put", "now - self._kept)", "now - self._kept + 1)", "counted"),
     "early reports are taken": (Inbox, "put", "now + AHEAD", "now + 1_000", "counted"),
-    "strangers are taken": (Inbox, "put", "report.id >= self._agents or", "", "raises an error"),
-    "times between steps are taken": (Inbox, "put", "abs(steps - round(steps)) > 1e-3", "False", "counted"),
-    "times before the start are taken": (Inbox, "put", "not 0.0 <= steps", "not -1e9 <= steps", "counted"),
-    "who is reordered is forgotten": (Inbox, "put", "max(step, self._last.get(report.id, 0))", "step", "counted"),
+    "strangers are taken": (Inbox, "put", "(numbers[:, ID] < self._agents)", "True", "raises an error"),
+    "times between steps are taken": (Inbox, "put", "<= 1e-3", "<= 1.0", "counted"),
+    "times before the start are taken": (Inbox, "put", "(times >= 0.0)", "(times >= -1e9)", "counted"),
+    "who is reordered is forgotten": (Inbox, "_keep", "else:\n", "if True:\n", "counted"),
     "an inbox keeps everything": (Inbox, "forget", "step < now - self._kept", "step < 0", "stays small"),
     "an inbox forgets too much": (Inbox, "forget", "step < now - self._kept", "step <= now - 1", "counted"),
-    "damaged reports are read": (messages, "unpack", "!= zlib.crc32(body)", "is None", "counted"),
-    "numbers that are none are read": (messages, "unpack", "_check_finite(read, numbers)", "pass", "not finite"),
-    "a buoy hears itself": (Buoy, "_heard", "report.id != self.id and", "", "itself"),
-    "one more than k is heard": (Buoy, "_heard", "[: self.neighbors]", "[: self.neighbors + 1]", "at most k"),
-    "one less than k is heard": (Buoy, "_heard", "[: self.neighbors]", "[: self.neighbors - 1]", "k nearest"),
-    "the farthest are heard": (Buoy, "_heard", "sorted(far)[:", "sorted(far, reverse=True)[:", "k nearest"),
-    "the first by id are heard": (
-        Buoy,
-        "_heard",
-        "sorted(far)[:",
-        "[(0.0, id) for id in sorted(newest)][:",
-        "k nearest",
+    "damaged reports are read": (inbox, "read", "sound = whole &", "sound =", "counted"),
+    "messages of any length are read": (inbox, "read", "if len(data) == size else nothing", "", "raises an error"),
+    "numbers that are none are read": (inbox, "read", "& np.isfinite(numbers).all(axis=1)", "", "counted"),
+    "a buoy hears itself": (said, "link_nearest", "speakers[m] == ids[n] or", "", "itself"),
+    "one more than k is heard": (Said, "nearest", "(max(most", "(max(most := [k + 1 for k in most]", "at most k"),
+    "one less than k is heard": (Said, "nearest", "(max(most", "(max(most := [k - 1 for k in most]", "k nearest"),
+    "the farthest are heard": (said, "link_nearest", "dx * dx + dy * dy", "-(dx * dx + dy * dy)", "k nearest"),
+    "the first by id are heard": (said, "link_nearest", "dx * dx + dy * dy", "0.0", "k nearest"),
+    "the nearest from west to east are heard": (said, "link_nearest", "dx * dx + dy * dy", "dx * dx", "k nearest"),
+    "whoever is out of reach is heard": (said, "link_nearest", "not reaches[n, m]", "False", "k nearest"),
+    "x and y are mixed up": (Said, "__init__", "[:, :ID].copy()", "[:, [1, 0, 2, 3, 4]].copy('C')", "k nearest"),
+    "velocities are mixed up": (Said, "__init__", "[:, :ID].copy()", "[:, [0, 1, 3, 2, 4]].copy('C')", "what was said"),
+    "times are not told": (
+        Said,
+        "__init__",
+        "[:, :ID].copy()",
+        "[:, :ID] * ([1.0] * 4 + [0.0])",
+        "what was said",
     ),
-    "a buoy reports where it will be": (Buoy, "report", "float(x)", "float(x + vx)", "say what instruments"),
-    "a buoy reports in halves": (Buoy, "report", "float(vy)", "float(vy / 2)", "say what instruments"),
-    "a buoy is a step behind in its reports": (Buoy, "report", "time = step", "time = (step - 1)", "say when"),
+    "everybody heard is on target": (Said, "__init__", "ON_TARGET] > 0.0", "ON_TARGET] > -1.0", "what was said"),
+    "a buoy reports where it will be": (
+        Buoy,
+        "report_together",
+        "= readings[:, :4],",
+        "= readings[:, :4] + readings[:, 2:3] * [1.0, 0.0, 0.0, 0.0],",
+        "say what instruments",
+    ),
+    "a buoy reports in halves": (Buoy, "report_together", "readings[:, :4],", "readings[:, :4] / 2,", "instruments"),
+    "a buoy is a step behind in its reports": (Buoy, "report_together", "] = step *", "] = (step - 1) *", "say when"),
+    "buoys report in the name of one": (
+        Buoy,
+        "report_together",
+        "[buoy.id for",
+        "[buoys[0].id for",
+        "instruments",
+    ),
     "a buoy decides a step behind": (
         Buoy,
-        "decide",
-        "self._mind.decide(me, heard, step)",
-        "self._mind.decide(me, heard, step - 1)",
+        "decide_together",
+        "near[rows], step)",
+        "near[rows], step - 1)",
         "its own clock",
     ),
     "a buoy wants what is no number": (
         Buoy,
-        "decide",
-        "vx, vy = self._mind.decide(me, heard, step)",
-        "vx, vy = 0.0, self._mind.decide(me, heard, step)[1]",
+        "decide_together",
+        "return wants",
+        "return wants * math.nan",
         "commands are decisions",
     ),
-    "the dead are heard": (Aboard, "act", "if tick.alive[id]", "", "k nearest"),
-    "limited radios hear all": (Aboard, "act", "if tick.hears is None", "if True", "k nearest"),
-    "one buoy is silent": (Aboard, "speak", "in tick.readings:", "in tick.readings[1:]:", "every buoy speaks"),
+    "the dead are heard": (Aboard, "_arrived", "there[id]", "True", "k nearest"),
+    "limited radios hear all": (Aboard, "_arrived", "if tick.hears is None", "if True", "k nearest"),
+    "one buoy is silent": (Aboard, "speak", "self._told)", "self._told)[1:]", "every buoy speaks"),
     "buoys speak between reports": (Aboard, "speak", "if tick.step % self._interval:", "if False:", "between reports"),
-    "one buoy does not decide": (Aboard, "act", "buoy.decide(", "number and buoy.decide(", "every buoy decides"),
+    "one buoy does not decide": (
+        Aboard,
+        "act",
+        "self._obey(tick.step)",
+        "tick = tick._replace(readings=tick.readings[1:], hears=tick.hears if tick.hears is None else tick.hears[1:])",
+        "every buoy decides",
+    ),
     "wants are those of others": (Aboard, "act", "tick, wants)", "tick, wants[::-1])", "commands are decisions"),
+    "what is said now and then is heard always": (Aboard, "spoken", "arrived % self._interval", "0", "k nearest"),
     "what is delayed is heard at once": (Aboard, "spoken", "step - self._delay", "step", "from the future"),
+    "the sea follows one process": (Ocean, "follow", "if answers:", "if answers := answers[:1]:", "decided last"),
     "bodies forget a command": (
         Ocean,
         "obey",
@@ -122,7 +146,7 @@ MUTANTS = {
         "say what is so",
     ),
     "the killed stay": (Ocean, "lose", "now.swarm.leaves[lost] = self.number", "pass", "lost are gone"),
-    "the silent go on": (PacedSea, "_stop_the_silent", "if ids.size:", "if False:", "silent stop"),
+    "the silent go on": (PacedSea, "_stop_the_silent", "if fresh.size:", "if False:", "silen"),
     "the silent go on for a second more": (
         PacedSea,
         "_stop_the_silent",
@@ -135,8 +159,8 @@ MUTANTS = {
         Log,
         "keep",
         "self._frames.append",
-        "len(self._wants) % 9 and self._frames.append",
-        "every step",
+        "self.steps % 9 and self._frames.append",
+        "every frame",
     ),
     "the log has another place": (
         Log,
@@ -153,7 +177,13 @@ MUTANTS = {
         "self.aboard = getattr(self, 'aboard', None) or Aboard(",
         "counted",
     ),
-    "a restart forgets what was": (Buoy, "restore", "self._mind.recall(memory)", "pass", "goes on from what was"),
+    "a restart forgets what was": (
+        Buoy,
+        "restore",
+        "self._minds.recall(self._place, memory)",
+        "pass",
+        "goes on from what was",
+    ),
     "the log remembers for others": (
         Log,
         "remember",
@@ -161,7 +191,13 @@ MUTANTS = {
         "self._memory[ids[::-1]] =",
         "every memory",
     ),
-    "buoys say that everybody is on target": (Buoy, "report", "bool(on_target)", "True", "say what instruments"),
+    "buoys say that everybody is on target": (
+        Buoy,
+        "report_together",
+        "readings[:, _ON_TARGET]",
+        "1.0",
+        "say what instruments",
+    ),
     "nobody is there for instruments": (
         Ocean,
         "tick",
@@ -169,10 +205,37 @@ MUTANTS = {
         "alive = self.alive & (self.number < 50)",
         "who is there",
     ),
+    "the chance of another step is drawn": (
+        CompiledMinds,
+        "decide",
+        "(self._key, step)",
+        "(self._key, step + 1)",
+        "strategy says",
+    ),
+    "minds forget": (CompiledMinds, "decide", "self._memory,", "self._memory.copy(),", "strategy does"),
+    "minds hear one less": (CompiledMinds, "decide", "inbox, near,", "inbox, near[:, 1:].copy(),", "strategy says"),
+    "minds do not know their speed": (
+        CompiledMinds,
+        "decide",
+        "[rows, :8] = readings",
+        "[rows, :8] = readings * [1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1.0]",
+        "strategy says",
+    ),
+    "minds take themselves for another": (CompiledMinds, "__init__", "[me.id,", "[0,", "strategy says"),
+    "minds remember for another": (CompiledMinds, "recall", "[place,", "[0,", "goes on from what was"),
 }
 
-# What a mind makes of what it hears has no second opinion here: tests/run/fleet/test_lockstep.py has the simulator's.
-SURVIVORS = {
-    "x and y are mixed up": (CompiledMind, "decide", "(each.x, each.y,", "(each.y, each.x,"),
-    "the chance of another step is drawn": (CompiledMind, "decide", "self._key, step)", "self._key, step + 1)"),
+# The same of a fleet that keeps and relays reports.
+KEPT_MUTANTS = {
+    "what is kept is too young": (Hearing, "held", "step - self._max_age)", "step - self._max_age + 1)", "k nearest"),
+    "what did not reach is kept": (Hearing, "held", "if reached[id]", "", "k nearest"),
+    "the oldest is gone by": (
+        Hearing,
+        "held",
+        "found |= {id: (then, row) for id, row in inbox.of(then).items() if reached[id]}",
+        "found = {id: (then, row) for id, row in inbox.of(then).items() if reached[id]} | found",
+        "said",
+    ),
+    "nothing is kept": (Aboard, "act", "if self._keeps", "if False", "k nearest"),
+    "radios reach all": (Aboard, "_kept", "if tick.hears is None", "if True", "k nearest"),
 }

@@ -330,7 +330,7 @@ def _wrong_numbers(rng, table):
         table.pop("joins", None)
         table.pop("losses", None)
     elif name == "crowd":
-        table["fleets"][0]["count"] = 10_001
+        table["fleets"][0]["count"] = 1_000_001
     elif name == "losses":
         table["losses"] = [{"step": 1, "count": 1}, {"step": 5, "count": _agents(table)}]
     elif name == "join":

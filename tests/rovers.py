@@ -65,7 +65,9 @@ class Rover:
         if message.command == words.MAV_CMD_DO_SET_MODE:
             self.mode = int(message.param2)
         elif message.command == words.MAV_CMD_COMPONENT_ARM_DISARM:
-            if self.mode != words.ROVER_MODE_GUIDED or self.prearm:
+            if message.param1 == 0:
+                self.armed = False
+            elif self.mode != words.ROVER_MODE_GUIDED or self.prearm:
                 result = words.MAV_RESULT_FAILED
                 self.say(words.MAVLink_statustext_message(2, f"Arm: {self.prearm or 'mode'}".encode()))
             else:

@@ -22,14 +22,14 @@ dataset declared difference disc dispatch dive doc drag drawing duration each ed
 executor experiment export exported extra figure file fill film fixed floating folder format frontier frozen geojson
 gpx graph ground guard gyre histogram info inlined inner installed interrupt interval is kept keyword kill kml label
 land layout legend level library listen listing live load lock locked look lowering main map mark meaning measure
-message meta missing move moving name named netcdf new nmea no now older once one open opened option outcome
+message meta missing move moving name named netcdf new nmea no now older one open opened option outcome
 output over page paired panel param pause picture place placement plain play plot plugin polygon print private
 progress projected published quantity range read reason recorded reproduce resample restart result robustness rotation
 running said saved scaled schema scored seek seen self sensing sensitivity sensor server setting several shoal show
 side signal simulate simulation size stamp startup statement statistic stop stopped strategy style suited summary
 swept table text thought tide top tree turn uniform unknown varied vehicle version view virtual wanted watch watched
 waiting weight word writer xml datagram port serial stream unready aboard attend killing late letter note obedient paced
-process serve storm term tied zenoh form gpu packed
+borrowed deferral process quickest sail serve storm term tied zenoh relayed listed many form gpu packed
 """  # words that mean what any dictionary says, and file formats
 PLAIN = frozenset(DICTIONARY.split())
 KINDS = [*TARGETS, *DISTURBANCES]

@@ -12,8 +12,9 @@ from shoal.run.simulation import Simulation
 from shoal.scenario.commands import Command
 from shoal.scenario.disturbances import DISTURBANCES
 from shoal.scenario.load import load, read_table, scenario_from
+from shoal.scenario.network import AdaptiveDegree, Network
 from shoal.scenario.presence import Join, Loss
-from shoal.scenario.schema import AdaptiveDegree, Fleet, Network
+from shoal.scenario.schema import Fleet
 from shoal.scenario.targets import TARGETS
 
 ROOT = Path(__file__).resolve().parents[1]

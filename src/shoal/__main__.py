@@ -1,13 +1,17 @@
 """python -m shoal, and the shoal command: Ctrl-C is one line from the first moment on, not a traceback."""
 
+import gc
 import os
 import signal
 import sys
 from typing import Any
 
+COLLECT_AFTER = 100_000  # new objects: Python looks for garbage after 700, a sixth of a start in which there is none
+
 
 def main() -> None:
     """Run the command line and exit; docs/reference/cli.md has the codes."""
+    gc.set_threshold(COLLECT_AFTER)
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # matrices are small, and runs have threads of their own
     heeded = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # not under nohup
     if heeded:

@@ -94,12 +94,12 @@ class NoNumba:
 sys.meta_path.insert(0, NoNumba())
 sys.path.insert(0, sys.argv[1])
 import shoal.scenario.load, shoal.buoy.buoy
-from shoal.buoy.plain import PlainMind
+from shoal.buoy.plain import PlainMinds
 assert "numba" not in sys.modules
 from buoys import Tape, differences
 for table, tape, ids, radio, apart in pickle.loads(pathlib.Path(sys.argv[2]).read_bytes()):
     chosen = shoal.scenario.load.scenario_from(table)
-    assert isinstance(shoal.buoy.buoy.Buoy(chosen, 0)._mind, PlainMind)
+    assert isinstance(shoal.buoy.buoy.Buoy(chosen, 0)._minds, PlainMinds)
     found = differences(Tape(*tape), chosen, ids, radio=radio, apart=apart)
     print(chosen.strategy.name, len(found), found[:3])
 """

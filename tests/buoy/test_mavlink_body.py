@@ -7,7 +7,7 @@ from contextlib import suppress
 import pytest
 
 pytest.importorskip("pymavlink", reason="pymavlink is not installed: pip install '.[mavlink]'")
-pytest.importorskip("pyproj", reason="pyproj is not installed: pip install '.[mavlink]'")
+pytest.importorskip("pyproj", reason="pyproj is not installed: pip install '.[maritime]'")
 
 from pymavlink.dialects.v20 import ardupilotmega as words
 
@@ -288,6 +288,16 @@ class TestPerson:
         here.body.close()
         assert here.rover.mode == words.ROVER_MODE_HOLD
         here.body.close()  # twice is once
+
+    def test_at_the_end_it_disarms_what_it_armed_and_nothing_else(self, scene):
+        ours, theirs = scene(), scene(begun=False)
+        theirs.rover.mode, theirs.rover.armed = words.ROVER_MODE_GUIDED, True
+        theirs.body.begin(arm=True)
+        for here in (ours, theirs):
+            here.hand.run(1.0, lambda here=here: here.body.go(1.0, 0.0))
+            here.body.close()
+        assert (ours.rover.armed, theirs.rover.armed) == (False, True)
+        assert ours.rover.mode == theirs.rover.mode == words.ROVER_MODE_HOLD
 
     def test_but_not_where_a_person_has_it(self, scene):
         here = scene()

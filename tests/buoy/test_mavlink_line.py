@@ -5,7 +5,7 @@ import random
 import pytest
 
 pytest.importorskip("pymavlink", reason="pymavlink is not installed: pip install '.[mavlink]'")
-pytest.importorskip("pyproj", reason="pyproj is not installed: pip install '.[mavlink]'")
+pytest.importorskip("pyproj", reason="pyproj is not installed: pip install '.[maritime]'")
 
 from pymavlink.dialects.v20 import ardupilotmega as words
 

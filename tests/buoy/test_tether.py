@@ -5,7 +5,7 @@ import random
 import numpy as np
 import pytest
 
-from shoal.buoy.tether import READINGS, Commands, Note, Tick, from_bytes, reading_of
+from shoal.buoy.tether import READINGS, Commands, Note, Tick, from_bytes, readings_of
 from shoal.core.errors import MessageError
 from shoal.core.messages import Reading
 
@@ -55,7 +55,8 @@ def test_the_part_of_a_tick_for_some_buoys():
 
 def test_a_reading_as_a_buoy_takes_it():
     row = tick(False).readings[1]
-    reading = reading_of(row)
+    id, reading = readings_of(tick(False))[1]
+    assert id == row["id"]
     assert reading == Reading(*(row[name] for name in Reading._fields))
     assert [type(each) for each in reading] == [float] * 4 + [bool] + [float] * 2 + [bool]
 

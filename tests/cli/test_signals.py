@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from shoal.cli import main
 from shoal.experiments.results import read_rows
 from shoal.record.files import open_record
 
@@ -81,3 +82,32 @@ def test_what_nohup_says_is_heeded(tmp_path):
         [sys.executable, "-c", script], cwd=Path(tmp_path), capture_output=True, text=True, check=True
     )
     assert done.stdout.startswith("True <function _end")
+
+
+@pytest.mark.skipif(sys.version_info >= (3, 12), reason="Python hands it on as it is")
+def test_an_interrupt_that_an_import_made_another_error_of(monkeypatch, capsys):
+    """Before 3.12, an error in `__set_name__`, in the class body of a module being imported, becomes a RuntimeError."""
+
+    class Interrupted:
+        def __set_name__(self, owner, name):
+            raise KeyboardInterrupt
+
+    def import_it(*_, **__):
+        class Imported:
+            attribute = Interrupted()
+
+    monkeypatch.setattr(main, "app", import_it)
+    assert main.run_command(["presets"]) == 130
+    assert "interrupted; nothing was left half-written" in capsys.readouterr().err
+
+
+def test_other_errors_stay_what_they_are(monkeypatch):
+    def fail(*_, **__):
+        error = ZeroDivisionError()
+        error.__cause__ = ValueError()
+        error.__cause__.__cause__ = error
+        raise error
+
+    monkeypatch.setattr(main, "app", fail)
+    with pytest.raises(ZeroDivisionError):
+        main.run_command(["presets"])

@@ -3,8 +3,12 @@
 import subprocess
 import sys
 
+import pytest
+
 from scenarios import scenario
 from shoal.cli.main import app
+from shoal.compiler.kernel import why_uncached
+from shoal.compiler.late import compiles
 from shoal.run.simulate import simulate
 
 SCRIPT = """
@@ -32,3 +36,38 @@ def test_without_the_compiler(tmp_path):
         ["show", str(tmp_path / "r"), "--json"],
     ]
     subprocess.run([sys.executable, "-c", SCRIPT.format(commands=commands)], check=True, stdout=subprocess.DEVNULL)
+
+
+BUOY = """
+import sys
+sys.modules["numba"] = None
+import shoal.cli.buoy, shoal.buoy.serve, shoal.buoy.sail, shoal.buoy.mavlink_body
+from shoal.buoy.aboard import Aboard
+from shoal.buoy.ground import GroundFrame
+
+GroundFrame((5.3, 60.4)).local(5.4, 60.5)
+Aboard("oceans2020", [7]).warm()
+needless = {"pyproj", "rich", "xml", "scipy", "pandas", "matplotlib", "shoal.tracks", "shoal.run"}
+print(*sorted(needless & set(sys.modules)))
+"""
+
+
+def test_a_buoy_on_a_small_computer_imports_what_it_needs_only():
+    done = subprocess.run([sys.executable, "-c", BUOY], check=True, stdout=subprocess.PIPE, text=True)
+    assert done.stdout == "\n"
+
+
+WARM = """
+import sys
+from shoal.cli.main import run_command
+
+assert run_command(["run", "oceans2020", "--steps", "1"]) == 0
+assert "numba" in sys.modules
+assert not {"numba.np.npyimpl", "scipy", "yaml"} & set(sys.modules)
+"""
+
+
+@pytest.mark.skipif(not compiles() or why_uncached() is not None, reason="machine code is not kept here")
+def test_what_is_compiled_already_is_loaded_without_what_compiling_needs():
+    simulate(scenario(changes={"steps": 1}))
+    subprocess.run([sys.executable, "-c", WARM], check=True, stdout=subprocess.DEVNULL)

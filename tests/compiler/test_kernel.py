@@ -3,11 +3,11 @@
 import os
 import subprocess
 import sys
-import threading
 
-from numba.core import config
+import pytest
 
-from shoal.compiler.kernel import cache_folder, kernel_cache
+from shoal.compiler.kernel import entry_kernel, twin
+from shoal.compiler.late import compiles
 
 PLAIN = """
 import warnings
@@ -30,34 +30,23 @@ def printed(**environment):
     return done.stdout
 
 
-class TestThreads:
-    """Numba's setting is the process's: of two threads that decorate at once, one waits."""
+@pytest.mark.skipif(not compiles(), reason="without a compiler there is no machine code")
+class TestTwins:
+    """Entry kernels for a user's strategies: kept under what these are made of, if that is known."""
 
-    def test_no_thread_takes_the_folder_away_from_another(self):
-        entered, leave, seen = threading.Event(), threading.Event(), []
+    def test_one_that_is_made_of_something_known_is_kept(self, tmp_path, monkeypatch):
+        monkeypatch.setattr("shoal.compiler.kernel.cache_folder", lambda: tmp_path)
 
-        def decorate():
-            with kernel_cache():
-                entered.set()
-                leave.wait(10.0)
+        def half(x):
+            return 0.5 * x
 
-        first = threading.Thread(target=decorate)
-        first.start()
-        entered.wait(10.0)
+        def hits(made_of):
+            kept = twin(entry_kernel(half), made_of)
+            assert kept(3.0) == 1.5
+            return sum(kept.stats.cache_hits.values())
 
-        def decorate_too():
-            with kernel_cache():
-                seen.append(config.CACHE_DIR)
-
-        second = threading.Thread(target=decorate_too)
-        second.start()
-        second.join(0.2)
-        assert seen == []
-        leave.set()
-        first.join()
-        second.join()
-        assert seen == [str(cache_folder())]
-        assert seen[0] != config.CACHE_DIR
+        assert [hits("a"), hits("a"), hits("b"), hits(None), hits(None)] == [0, 1, 0, 0, 0]
+        assert len(list(tmp_path.iterdir())) == 2
 
 
 class TestPlainPython:

@@ -9,8 +9,9 @@ from shoal.metrics.tally import new_tally
 from shoal.record.older import roster_from
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
+from shoal.scenario.network import Network
 from shoal.scenario.recorded import RecordedFleet, RecordedScenario, RecordedStrategy, RecordedTarget
-from shoal.scenario.schema import Area, Network
+from shoal.scenario.schema import Area
 
 pytest.importorskip("matplotlib", reason="matplotlib is not installed")
 

@@ -156,7 +156,6 @@ class TestABrokenPackage:
             ("high=1.0", 'high="all"', "its bounds are not numbers"),
             ("tally.crowded.sum()", "tally.crowd.sum()", "the formula of its metric 'crowding' fails: AttributeError"),
             ("MEASUREMENT =", "MEASUREMENTS =", "crowding declares no measurement"),
-            ("tally.crowded[step", "tally.crowd[step", "a kernel of it cannot be compiled"),
             ("tally.crowded[step", "no_such_name[step", "a kernel of it cannot be compiled"),
         ],
     )

@@ -37,6 +37,7 @@ class TestTheSameScenario:
             {"motion.update_order": "sequential"},
             {"network.delay": 3, "network.range": 9.0, "network.loss": 0.1},
             {"network.adaptive": {"fewest": 3, "most": 30, "patience": 2.0}},
+            {"network.max_age": 4, "network.loss": 0.5, "network.hops": 2},
             {"losses": [{"step": 50, "count": 9}, {"step": 70, "count": 9}]},
             {"joins": [{"step": 40, "count": 4, "fleet": "BoB-1"}, {"step": 65, "count": 4, "fleet": "BoB-0"}]},
             {"fleets.0.mean_lifetime": 8.0},
@@ -125,6 +126,16 @@ class TestAChange:
         old = running({"network.delay": 4})
         new = carry_over(old, scenario(changes={"network.delay": delay}))
         assert (new.radio.x[:, :50] == old.swarm.x[:50]).all()
+
+    def test_what_was_heard_is_kept_by_those_who_stay_if_the_rule_stays(self):
+        old = running({"network.max_age": 4, "network.loss": 0.5})
+        stay = np.array([3, 1, 49])
+        few = {"network.max_age": 4, "network.loss": 0.5, "fleets": fleets((3, 1.0)), "network.neighbors": 2}
+        new = carry_over(old, scenario(changes=few), stay)
+        assert (new.radio.heard[:, :3] == old.radio.heard[np.ix_(stay, stay)]).all()
+        changed = carry_over(old, scenario(changes={"network.max_age": 5, "network.loss": 0.5}))
+        assert (changed.radio.heard == -1).all()
+        assert old.radio.heard.max() == 59
 
     def test_the_same_at_the_same_step_is_the_same_however_it_came_there(self):
         results = []

@@ -4,7 +4,8 @@ import pytest
 from pydantic import Field
 
 from scenarios import scenario
-from shoal.scenario.schema import Network, Scenario
+from shoal.scenario.network import Network
+from shoal.scenario.schema import Scenario
 
 
 class WiderNetwork(Network):

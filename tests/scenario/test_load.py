@@ -291,9 +291,9 @@ class TestBadFields:
         with pytest.raises(ValueError, match="does not change"):
             load("oceans2020").seed = 3
 
-    @pytest.mark.parametrize("counts", [[1], [6_000, 5_000]])
-    def test_a_swarm_has_2_to_10000_agents(self, counts):
-        with pytest.raises(ScenarioError, match="a swarm has 2 to 10000"):
+    @pytest.mark.parametrize("counts", [[1], [600_000, 500_000]])
+    def test_a_swarm_has_2_to_a_million_agents(self, counts):
+        with pytest.raises(ScenarioError, match="a swarm has 2 to 1,000,000"):
             scenario("oceans2020", {"fleets": fleets(*((count, 1.0) for count in counts)), "network.neighbors": 1})
 
 

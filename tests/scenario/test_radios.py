@@ -88,6 +88,20 @@ class TestInterval:
         assert sentence.endswith("agents report every 0.3 s")
         assert assumptions(scenario("oceans2020", {"network.interval": 0.3})) == []
 
+    @pytest.mark.parametrize(
+        ("changes", "words"),
+        [
+            ({"max_age": 2, "interval": 0.3}, ["2 steps, but reports come every 3: no older one is gone by"]),
+            ({"max_age": 3, "interval": 0.3}, []),
+            ({"hops": 4}, ["all hear each other directly: give network.range"]),
+            ({"hops": 4, "loss": 0.1}, []),
+            ({"hops": 4, "range": 5.0, "radio": "wifi-mesh"}, ["without what it relays"]),
+        ],
+    )
+    def test_what_is_kept_or_relayed_in_vain_is_said(self, changes, words):
+        said = assumptions(scenario("oceans2020", {f"network.{name}": value for name, value in changes.items()}))
+        assert [each[-len(word) :] for each, word in zip(said, words, strict=True)] == words
+
     def test_below_a_step_is_refused(self):
         with pytest.raises(ScenarioError, match=r"network\.interval: network\.interval is 0\.05 s") as caught:
             scenario("oceans2020", {"network.interval": 0.05})

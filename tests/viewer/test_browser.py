@@ -2,11 +2,11 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from browsing import DESK, SHOWN, first_living_agent, pause, place, play, slide
 from bulletins import FRAMES, GAUGES, bulletin
 from scenarios import scenario
 from shoal.drawing.words import estimate_text
@@ -14,38 +14,13 @@ from shoal.run.simulate import simulate
 from shoal.scenario.load import read_table
 
 pytest.importorskip("starlette", reason="the viewer's libraries are not installed")
-playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
 
-from shoal.viewer.frame import pack  # noqa: E402
-from shoal.viewer.outlook import Outlook  # noqa: E402
-from shoal.viewer.replay import replay_page  # noqa: E402
-from shoal.viewer.server import live_app, page_app, serving, serving_session  # noqa: E402
-from shoal.viewer.session import Session  # noqa: E402
-
-CHROMIUM = [Path(path) for path in ("/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome")]
-DESK = {"width": 1280, "height": 720}
-PHONE = {"width": 390, "height": 844}
-SHOWN = "Array.from(new Uint8Array(shoal.frame()))"  # the bytes of the frame shown
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with playwright.sync_playwright() as engine:
-        own = Path(engine.chromium.executable_path)
-        found = [path for path in [own, *CHROMIUM] if path.exists()]
-        if not found:
-            pytest.skip("no chromium is installed")
-        arguments = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
-        browser = engine.chromium.launch(executable_path=str(found[0]), args=arguments)
-        yield browser
-        browser.close()
-
-
-@pytest.fixture
-def address():
-    """A run of oceans2020 that plays."""
-    with serving_session(Session([read_table("oceans2020")])) as where:
-        yield where
+from shoal.viewer.frame import pack
+from shoal.viewer.outlook import Outlook
+from shoal.viewer.replay import replay_page
+from shoal.viewer.server import live_app, page_app, serving, serving_session
+from shoal.viewer.session import Session
 
 
 @pytest.fixture(scope="module")
@@ -59,66 +34,6 @@ def replay(record, tmp_path_factory):
     file = tmp_path_factory.mktemp("replay") / "run.html"
     file.write_text(replay_page(record), encoding="utf-8")
     return file
-
-
-@pytest.fixture
-def open_page(browser):
-    """Open an address in a browser of its own; gives the page, which says at the end whether all went well."""
-    contexts, told = [], []
-
-    def open_(address, viewport=DESK, **options):
-        context = browser.new_context(viewport=viewport, **options)
-        contexts.append(context)
-        page = context.new_page()
-        page.set_default_timeout(60_000)
-        page.on("pageerror", lambda error: told.append(str(error)))
-        page.on("console", lambda message: told.append(message.text) if message.type in ("error", "warning") else None)
-        page.goto(address)
-        page.wait_for_function("() => window.shoal && shoal.step() >= 0")
-        return page
-
-    yield open_
-    for context in contexts:
-        context.close()
-    assert told == []
-
-
-def pause(page):
-    page.get_by_role("button", name="Pause").click()
-    page.wait_for_function("() => !shoal.playing()")
-
-
-def play(page):
-    page.get_by_role("button", name="Play").click()
-    page.wait_for_function("() => shoal.playing()")
-
-
-def slide(page, name, key, times):
-    slider = page.get_by_role("slider", name=name)
-    slider.focus()
-    for _ in range(times):
-        slider.press(key)
-
-
-def first_living_agent(page):
-    """Where on the page the first agent that is there is drawn [px]."""
-    x, y = page.evaluate(
-        """() => {
-            const view = new DataView(shoal.frame());
-            const [agents, targets] = [view.getUint32(8, true), view.getUint32(12, true)];
-            const flags = 84 + 22 * agents + 8 * targets;
-            const agent = [...Array(agents).keys()].find((each) => view.getUint8(flags + each) & 2);
-            return [view.getFloat32(84 + 4 * agent, true), view.getFloat32(84 + 4 * (agents + agent), true)];
-        }"""
-    )
-    return place(page, x, y)
-
-
-def place(page, x, y):
-    """Where on the page a point of the arena [m] is drawn [px]."""
-    box = page.locator("canvas").first.bounding_box()
-    to = page.evaluate("([x, y]) => shoal.place(x, y)", [x, y])
-    return box["x"] + to[0], box["y"] + to[1]
 
 
 class TestWatching:
@@ -400,48 +315,6 @@ class TestAReplay:
         assert page.locator("img").count() == 0
 
 
-class TestEveryScreen:
-    @pytest.mark.parametrize("viewport", [DESK, PHONE], ids=["desk", "phone"])
-    @pytest.mark.parametrize("scheme", ["light", "dark"])
-    def test_nothing_sticks_out_sideways(self, open_page, address, viewport, scheme):
-        page = open_page(address, viewport, color_scheme=scheme)
-        page.get_by_role("slider", name="Target speed").wait_for()
-        assert page.evaluate("document.documentElement.scrollWidth") == viewport["width"]
-
-    def test_every_control_has_a_name(self, open_page, address):
-        page = open_page(address)
-        page.locator("summary").click()
-        controls = page.locator("button:visible, input:visible, select:visible, canvas:visible")
-        assert controls.count() > 20
-        nameless = controls.evaluate_all(
-            """all => all.filter((each) => !(each.getAttribute("aria-label") || each.innerText ||
-                [...(each.labels ?? [])].some((label) => label.innerText))).map((each) => each.outerHTML)"""
-        )
-        assert nameless == []
-
-    def test_the_dark_page_can_be_made_light(self, open_page, address):
-        page = open_page(address, color_scheme="dark")
-        dark = page.evaluate("getComputedStyle(document.body).backgroundColor")
-        page.keyboard.press("d")
-        assert page.evaluate("getComputedStyle(document.body).backgroundColor") != dark
-
-    def test_the_keys_are_listed_on_the_page(self, open_page, address):
-        page = open_page(address)
-        page.keyboard.press("?")
-        page.get_by_role("dialog").get_by_text("play, pause").wait_for()
-        page.keyboard.press("Escape")
-        page.get_by_role("dialog").wait_for(state="hidden")
-
-    def test_touch_removes_a_buoy_too(self, open_page, address):
-        page = open_page(address, PHONE, has_touch=True)
-        pause(page)
-        before = page.evaluate("shoal.agents()")
-        page.locator("label", has_text="Remove").tap()
-        page.evaluate("scrollTo(0, 0)")
-        page.touchscreen.tap(*first_living_agent(page))
-        page.wait_for_function("before => shoal.agents() === before - 1", arg=before)
-
-
 def test_frames_of_the_page_are_those_of_the_engine(open_page, replay, record):
     """Positions on the water are the record's, to single precision."""
     page = open_page(replay.as_uri())
@@ -450,56 +323,3 @@ def test_frames_of_the_page_are_those_of_the_engine(open_page, replay, record):
     x = json.loads(page.evaluate("JSON.stringify(Array.from(new Float32Array(shoal.frame().slice(84, 84 + 200))))"))
     kept = next(iter(record.trajectories.values()))
     assert x == pytest.approx(list(kept.x[-1]), rel=1e-6)
-
-
-class TestKeyboard:
-    """Fields take text, and Tab leads through all controls (WCAG 2.1.1, 2.1.2)."""
-
-    CONTROLS = """() => [...document.querySelectorAll("button, input, select, summary, a[href], [tabindex]")]
-        .filter((each) => each.checkVisibility() && !each.matches(":disabled") && each.tabIndex >= 0)
-        .map((each) => each.type === "radio" ? `radio ${each.name}` : (each.dataset.stop ??= String(Math.random())))"""
-    FOCUSED = """() => document.activeElement.type === "radio"
-        ? `radio ${document.activeElement.name}` : document.activeElement.dataset.stop ?? null"""
-
-    def test_a_field_takes_what_is_typed_and_lets_tab_go(self, address, open_page):
-        page = open_page(address)
-        pause(page)
-        step = page.evaluate("shoal.step()")
-        seed = page.locator("#seed")
-        seed.click()
-        for keys, value in (("Control+a", "1"), ("4", "4"), ("2", "42"), ("ArrowUp", "43"), ("Backspace", "4")):
-            page.keyboard.press(keys)
-            assert seed.input_value() == value
-        assert page.evaluate("shoal.step()") == step  # digits and arrows are the field's, not the page's
-        page.keyboard.press("Tab")
-        assert not seed.evaluate("field => field === document.activeElement")
-        page.keyboard.press("Shift+Tab")
-        assert seed.evaluate("field => field === document.activeElement")
-        page.keyboard.press("Enter")
-        page.wait_for_function("() => document.getElementById('about').innerText.includes('seed 4')")
-
-    def test_every_number_field_does(self, address, open_page):
-        page = open_page(address)
-        pause(page)
-        page.locator("summary", has_text="Parameters").click()
-        fields = page.locator("input[type=number]:visible")
-        assert fields.count() > 5
-        for number in range(fields.count()):
-            field = fields.nth(number)
-            field.focus()
-            page.keyboard.press("Control+a")
-            page.keyboard.type("1")
-            assert field.input_value() == "1"
-
-    def test_tab_leads_through_all_controls_and_out(self, address, open_page):
-        page = open_page(address)
-        pause(page)
-        page.locator("summary", has_text="Parameters").click()
-        controls = set(page.evaluate(self.CONTROLS))
-        page.evaluate("document.activeElement.blur()")
-        reached = set()
-        for _ in range(2 * len(controls)):
-            page.keyboard.press("Tab")
-            reached.add(page.evaluate(self.FOCUSED))
-        assert len(controls) > 20
-        assert controls <= reached

@@ -261,21 +261,12 @@ class TestABrokenPackage:
         assert "package 'bad-sails'" in err
         assert says in err
 
-    @pytest.mark.parametrize(
-        ("page", "group", "right", "wrong"),
-        [
-            ("own-target", TARGET, "around.time_step\n    if", "around.no_such_field\n    if"),
-            ("own-disturbance", DISTURBANCE, "me.speed *=", "me.no_such_field *="),
-        ],
-    )
-    def test_whose_kernel_cannot_be_compiled_is_named(self, tmp_path, page, group, right, wrong):
-        text = example(page)
+    def test_whose_kernel_cannot_be_compiled_is_named(self, tmp_path):
+        text, right = example("own-disturbance"), "me.speed *="
         assert right in text
         fouling = ", ".join(f"{key} = {json.dumps(value)}" for key, value in FOULING.items())
-        name, chosen = "zigzag", []
-        if group == DISTURBANCE:  # compiled where a run has one
-            name, chosen = "fouling", ["--set", f"disturbances=[{{{fouling}}}]"]
-        install(tmp_path, "bad-sails", text.replace(right, wrong), group, name)
+        chosen = ["--set", f"disturbances=[{{{fouling}}}]"]  # compiled where a run has one
+        install(tmp_path, "bad-sails", text.replace(right, "me.no_such_field *="), DISTURBANCE, "fouling")
         code, _, err = shoal(tmp_path, "run", "oceans2020", "--steps", "10", *chosen)
         assert code == 2, err
         assert "package 'bad-sails'" in err

@@ -1,6 +1,8 @@
-"""HOST:PORT, as commands take it."""
+"""HOST:PORT, as commands take it, and ports that are free."""
 
 import re
+import socket
+from contextlib import suppress
 
 from shoal.core.errors import FleetError
 from shoal.core.text import quoted
@@ -24,3 +26,38 @@ def host_and_port(text: str, option: str, *, free: bool = False) -> tuple[str, i
     if not named or not re.fullmatch(r"[0-9]{1,5}", port) or not (0 if free else 1) <= int(port) < 65536:
         raise FleetError(option, f"is {quoted(text)}", "give HOST:PORT, such as 127.0.0.1:7447")
     return bare, int(port)
+
+
+def free_port(host: str) -> int:
+    """Return a port that nobody listens at now, but may at any time; 0 where there can be none.
+
+    Parameters
+    ----------
+    host : name or address of this machine
+    """
+    with suppress(OSError, UnicodeError), _bound(host, 0) as trial:
+        return int(trial.getsockname()[1])
+    return 0
+
+
+def is_free(host: str, port: int) -> bool:
+    """Return whether nobody has a port now.
+
+    Parameters
+    ----------
+    host, port : name or address of this machine, and number of the port
+    """
+    with suppress(OSError, UnicodeError), _bound(host, port):
+        return True
+    return False
+
+
+def _bound(host: str, port: int) -> socket.socket:
+    family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
+    trial = socket.socket(family, socket.SOCK_STREAM)
+    try:
+        trial.bind((host, port))
+    except OSError:
+        trial.close()
+        raise
+    return trial

@@ -3,9 +3,7 @@
 Both are peers of zenoh beside the mesh of the buoys: no buoy has a link to a lookout, so none can wait for one.
 """
 
-import socket
 import threading
-from contextlib import suppress
 from typing import Any
 
 from shoal.buoy.zenoh_mesh import open_peer
@@ -36,11 +34,11 @@ class Beacon:
     """
 
     def __init__(self, host: str, port: int, option: str = "--listen") -> None:
-        self.port = port or _free_port(host)
         try:
-            self._session = open_peer([_endpoint(host, self.port)], [], PATIENCE, _PURPOSE)
+            self._session, (place,) = open_peer([_endpoint(host, port)], [], PATIENCE, _PURPOSE)
         except OSError:
             raise FleetError(f"{option} {host}:{port}", "cannot be had", "name another HOST:PORT") from None
+        self.port = int(place.rpartition(":")[2])
         self._publisher = self._session.declare_publisher(_NEWS)  # drops what a listener does not take
         self._token = self._session.liveliness().declare_token(_ALIVE)
         self._newest = b""
@@ -88,7 +86,7 @@ class Lookout:
     def __init__(self, host: str, port: int, option: str = "--fleet") -> None:
         where, fix = f"{option} {host}:{port}", "name the address that `shoal fleet` says when it starts"
         try:
-            self._session = open_peer([], [_endpoint(host, port)], PATIENCE, _PURPOSE)
+            self._session, _ = open_peer([], [_endpoint(host, port)], PATIENCE, _PURPOSE)
         except OSError:
             raise FleetError(where, "nobody answers there", f"start the fleet first, and {fix}") from None
         self._changed = threading.Condition()
@@ -133,13 +131,3 @@ class Lookout:
 
 def _endpoint(host: str, port: int) -> str:
     return f"tcp/[{host}]:{port}" if ":" in host else f"tcp/{host}:{port}"
-
-
-def _free_port(host: str) -> int:
-    """A port that nobody listens at now; 0 where there can be none."""
-    with suppress(OSError, UnicodeError):
-        family = socket.getaddrinfo(host, 0, type=socket.SOCK_STREAM)[0][0]
-        with socket.socket(family, socket.SOCK_STREAM) as trial:
-            trial.bind((host, 0))
-            return int(trial.getsockname()[1])
-    return 0

@@ -12,7 +12,6 @@ from shoal.core.errors import did_you_mean
 from shoal.core.text import quoted
 from shoal.scenario.briefing import fleet_of
 from shoal.scenario.load import Source, load
-from shoal.scenario.on_track import places_on_tracks
 
 KEPT = 2.0  # [s] a sensor that says nothing for longer sees nothing
 LONGEST = 1000  # [bytes] of a message
@@ -117,12 +116,18 @@ class RecordedTargets:
     """
 
     def __init__(self, scenario: Source, id: int, elapsed: Callable[[], float]) -> None:
+        from shoal.scenario.on_track import places_on_tracks  # and all readers of tracks with it
+
         scenario = load(scenario)
         self._radius = scenario.fleets[fleet_of(scenario, id)].sensor_radius
         self._places = places_on_tracks(scenario)
         self._elapsed = elapsed
         if not any(target.kind == "track" for target in scenario.targets):
-            raise BodyError("--sensor", "track needs a recorded target, and there is none", "add --target-track FILE")
+            raise BodyError(
+                "--sensor",
+                "track needs a recorded target, and there is none",
+                'give the scenario one: [[targets]] kind = "track"',
+            )
 
     def __call__(self, x: float, y: float) -> bool:
         """Whether a recorded target is within reach."""

@@ -63,6 +63,7 @@ class Lockstep:
             if self._connection.poll(0):
                 return self._next()
         attend(aboard, self._mesh, self._connection, tick)
+        aboard.mark(tick)
         self._send(aboard.act(tick))
         return None
 

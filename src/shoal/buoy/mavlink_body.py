@@ -9,10 +9,9 @@ from shoal.buoy.connection import connect
 from shoal.buoy.detector import Detector, no_detector
 from shoal.buoy.errors import BodyError, UnreadyError
 from shoal.buoy.fence import Fence, fence_of, kept_inside
-from shoal.buoy.ground import in_frame, over_ground
-from shoal.buoy.mavlink import GUIDED, HOLD, Mavlink
+from shoal.buoy.ground import frame_of, in_frame, over_ground
+from shoal.buoy.mavlink import GUIDED, HOLD, MODES, Mavlink
 from shoal.buoy.vehicle import Problem, Vehicle
-from shoal.core.errors import ScenarioError
 from shoal.core.geodesy import Frame
 from shoal.core.messages import Reading
 from shoal.core.text import quoted
@@ -22,7 +21,7 @@ REPEAT, BEAT = 0.2, 1.0  # [s] between two set-points, and two heartbeats or req
 HORIZON = 3.0  # [s] for which a vehicle that hears no more goes on: ArduPilot's GUID_TIMEOUT
 BRAKING = 2.0  # [s] for which it is told to lie still; told nothing more, a boat of ArduPilot's keeps its place
 PATIENCE = 30.0  # [s] to wait for each thing that a vehicle is asked for at the start
-PARTING = 2.0  # [s] to wait for HOLD at the end
+PARTING = 2.0  # [s] to wait for HOLD at the end, and to be disarmed
 ASTRAY = 10.0  # [m] outside the fence, in small arenas: farther out it is brought back by people
 
 
@@ -73,6 +72,7 @@ class MavlinkBody:
         self._lock = threading.RLock()
         self._closed = threading.Event()
         self._thread: threading.Thread | None = None
+        self._armed_it = False
         self.silences = 0
 
     def begin(self, *, arm: bool = False) -> str:
@@ -98,6 +98,7 @@ class MavlinkBody:
             raise BodyError(vehicle.name, *trouble)
         self._until(vehicle.not_guided, lambda: vehicle.ask_mode(GUIDED))
         if arm:
+            self._armed_it = not vehicle.armed
             self._until(vehicle.not_armed, vehicle.ask_to_arm)
         return vehicle.heartbeat.words
 
@@ -146,21 +147,28 @@ class MavlinkBody:
             self.tick()
 
     def close(self) -> None:
-        """Stop, ask for HOLD, and let go; a vehicle that a person has is left alone."""
+        """Stop, ask for HOLD, disarm what `begin` armed, and let go; a vehicle that a person has is left alone."""
         with self._lock:
             if self._closed.is_set():
                 return
             self.stop()
-            now = self._clock()
-            end = now + PARTING
-            while now < end and not (self.vehicle.unheard(now) or self._hands_off(now)):
-                self.vehicle.ask_mode(HOLD)
-                self._wait(REPEAT / 2)
-                now = self.tick()
+            vehicle, ours = self.vehicle, not self._hands_off(self._clock())
+            self._part(lambda now: not self._hands_off(now), lambda: vehicle.ask_mode(HOLD))
+            if ours and self._armed_it and vehicle.mode == MODES[HOLD]:
+                self._part(lambda now: vehicle.armed, vehicle.ask_to_disarm)
             self._closed.set()
             self.vehicle.close()
         if self._thread is not None:
             self._thread.join()
+
+    def _part(self, still: Callable[[float], bool], ask: Callable[[], None]) -> None:
+        """Ask for something while it is not so, for PARTING seconds at most."""
+        now = self._clock()
+        end = now + PARTING
+        while now < end and not self.vehicle.unheard(now) and still(now):
+            ask()
+            self._wait(REPEAT / 2)
+            now = self.tick()
 
     def beat(self) -> None:
         """Call `tick` in a thread from now on, until it is closed."""
@@ -278,10 +286,9 @@ def open_mavlink_body(
         raise BodyError("--body", problem, "write one from 1 to 255 after the #, or leave it out")
     if key is not None and len(key) != 32:
         raise BodyError("key", f"has {len(key)} bytes", "give 32; mavlink.key_of makes them of a phrase")
-    if scenario.area.origin is None:
-        raise ScenarioError("area.origin", "is not given", "say at what longitude and latitude (0, 0) lies")
-    fence, frame = fence_of(scenario, id), Frame(scenario.area.origin)
+    frame, fence = frame_of(scenario), fence_of(scenario, id)
     connection = connect(address)
+    body: MavlinkBody | None = None
     try:
         system = int(number) if mark else None
         vehicle = Vehicle(address, connection, Mavlink(system or 1, whole=connection.whole, key=key), system)
@@ -289,7 +296,7 @@ def open_mavlink_body(
         body = MavlinkBody(vehicle, frame, fence, detector=detector or no_detector, silence=silence)
         body.begin(arm=arm)
     except BaseException:
-        connection.close()
+        connection.close() if body is None else body.close()
         raise
     body.beat()
     return body

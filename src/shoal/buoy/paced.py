@@ -1,6 +1,5 @@
 """Buoys by the clock: they speak when a step begins and decide when half of it is over, whoever was heard by then."""
 
-import time
 from collections import Counter
 from multiprocessing.connection import Connection
 from typing import Any
@@ -9,6 +8,7 @@ import numpy as np
 
 from shoal.buoy.aboard import Aboard
 from shoal.buoy.attend import attend
+from shoal.buoy.clock import clock_of
 from shoal.buoy.mesh import Mesh
 from shoal.buoy.tether import BEGIN, Note, Tick, from_bytes
 
@@ -42,6 +42,7 @@ class Paced:
         self._connection = connection
         self._period = period
         self._agents = agents
+        self._now = clock_of(aboard.ids)
         self._begin = 0.0
         self._tick: Tick | None = None
 
@@ -58,10 +59,12 @@ class Paced:
             over = self._attend(done)
             if over is not None:
                 return over
-            tick, now = self._tick, time.monotonic()
-            if tick is None or not self._begin or tick.step <= done:
+            tick = self._tick
+            if tick is None or not self._begin:
                 continue
-            step = max(tick.step, int((now - self._begin) / self._period))
+            step = max(tick.step, int((self._now() - self._begin) / self._period))
+            if step == done:
+                continue
             self.skipped += max(0, step - done - 1)
             tick = tick._replace(step=step)
             for report in self._aboard.speak(tick):
@@ -76,31 +79,32 @@ class Paced:
     def _attend(self, done: int) -> Note | None:
         """Wait for instruments to say how the next step begins; if they do not in time, the last they said counts."""
         while True:
-            late = self._begin + (done + 1 + PATIENCE) * self._period - time.monotonic() if self._begin else None
+            late = self._begin + (done + 1 + PATIENCE) * self._period - self._now() if self._begin else None
             if not self._connection.poll(None if late is None or self._tick is None else max(0.0, late)):
                 return None
+            fresh = False
             while self._connection.poll(0):
                 said = from_bytes(self._connection.recv_bytes())
                 if isinstance(said, Tick) and said.turn == BEGIN:
                     self._connection.send_bytes(self._aboard.begin(said).to_bytes())
                 elif isinstance(said, Tick):
-                    self._tick = said
+                    self._tick, fresh = said, True
                 elif isinstance(said, Note) and said.word == "ping":
-                    self._connection.send_bytes(Note("pong", {**said.facts, "here": time.monotonic()}).to_bytes())
+                    self._connection.send_bytes(Note("pong", {**said.facts, "here": self._now()}).to_bytes())
                 elif isinstance(said, Note) and said.word == "clock":
                     self._begin = float(said.facts["begin"])
                 elif isinstance(said, Note):
                     return said
-            if self._tick is not None and self._tick.step > done:
+            if fresh:
                 return None
 
     def _listen(self, tick: Tick) -> None:
         """Hear until all are heard, or half of the step is over."""
         begin = self._begin + tick.step * self._period
-        until = begin + HALF * self._period
+        until = min(begin, self._now()) + HALF * self._period  # of a clock that is behind, the step is to come yet
         while True:
-            messages = self._mesh.take(max(0.0, until - time.monotonic()))
-            now = time.monotonic()
+            messages = self._mesh.take(max(0.0, until - self._now()))
+            now = self._now()
             before = len(self._aboard.inbox.of(tick.step))
             self._aboard.hear(messages, tick.step)
             arrived = len(self._aboard.inbox.of(tick.step)) - before

@@ -9,14 +9,13 @@ from typing import Any
 
 from shoal.buoy.aboard import Aboard
 from shoal.buoy.lockstep import Lockstep
-from shoal.buoy.mesh import Mesh
+from shoal.buoy.mesh import Peers
 from shoal.buoy.orderbook import Orderbook
 from shoal.buoy.paced import Paced
 from shoal.buoy.tether import Note, from_bytes
 from shoal.buoy.trust import NOBODY, Trust, read_key
-from shoal.buoy.zenoh_mesh import ZenohMesh
+from shoal.buoy.zenoh_mesh import ZenohMesh, protocol_of
 from shoal.core.errors import FleetError, MessageError
-from shoal.core.messages import Reading
 from shoal.scenario.load import Source, load
 
 KEY = "SHOAL_FLEET_KEY"  # of the environment: what proves to the sea that a buoy is one of its own
@@ -42,6 +41,7 @@ def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: b
     """
     scenario = load(scenario)
     command_key = read_key(trust.command_key) if trust.command_key else None
+    protocol_of(trust.mesh_config)  # what is wrong with it is said now; and it is loaded before others wait for it
     where = f"{address[0]}:{address[1]}"
     try:
         connection = Client(address, authkey=key)
@@ -54,13 +54,20 @@ def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: b
         try:
             _say(connection, "hello", ids=list(ids), scenario=scenario.hash, seed=scenario.seed)
             welcome = _note(connection, where, "welcome")
-            aboard = Aboard(scenario, ids, run=welcome["run"], max_age=welcome["max_age"])
-            _warm(aboard)
-            if command_key:
-                aboard.orderbook = Orderbook(scenario, welcome["fleet"], command_key, time.time())
-            places = {"connect": welcome["connect"], "listen": welcome["listen"]}
-            mesh = ZenohMesh(welcome["fleet"], str(min(ids)), **places, config=trust.mesh_config)
+            mesh = ZenohMesh(
+                welcome["fleet"],
+                str(min(ids)),
+                connect=welcome["connect"],
+                listen=welcome["listen"],
+                blocks=welcome["period"] is None,  # by the clock nobody is waited for
+                config=trust.mesh_config,
+            )
             try:
+                _say(connection, "listens", place=mesh.place)
+                aboard = Aboard(scenario, ids, run=welcome["run"], max_age=welcome["max_age"])
+                aboard.warm()
+                if command_key:
+                    aboard.orderbook = Orderbook(scenario, welcome["fleet"], command_key, time.time())
                 _meet(mesh, welcome["nodes"], connection)
                 _say(connection, "ready")
                 _work(aboard, mesh, connection, welcome, scenario.agents)
@@ -73,7 +80,7 @@ def serve(scenario: Source, ids: Sequence[int], address: tuple[str, int], key: b
 
 
 def _work(
-    aboard: Aboard, mesh: Mesh, connection: "Connection[bytes, bytes]", welcome: dict[str, Any], agents: int
+    aboard: Aboard, mesh: Peers, connection: "Connection[bytes, bytes]", welcome: dict[str, Any], agents: int
 ) -> None:
     driver: Lockstep | Paced
     if welcome["period"] is None:
@@ -91,22 +98,14 @@ def _work(
         seconds=time.monotonic() - begun,
         memory=_memory(),
         counts=dict(aboard.inbox.counts),
+        foreign=aboard.inbox.foreign,
         orders=dict(aboard.orderbook.counts) if aboard.orderbook else {"unread": aboard.unread},
         **facts,
     )
 
 
-def _warm(aboard: Aboard) -> None:
-    """Decide once, so that what must be compiled is, and forget it."""
-    buoy = aboard.buoys[aboard.ids[0]]
-    state = buoy.state
-    reading = Reading(0.0, 0.0, 0.0, 0.0, False)
-    buoy.decide(reading, [buoy.report(reading, 0)._replace(id=buoy.id + 1)], 0)
-    buoy.restore(state)
-
-
-def _meet(mesh: Mesh, nodes: int, connection: "Connection[bytes, bytes]") -> None:
-    """Wait until all nodes of the mesh are there.
+def _meet(mesh: Peers, nodes: int, connection: "Connection[bytes, bytes]") -> None:
+    """Join the mesh, and wait until all its nodes are there.
 
     Raises
     ------
@@ -114,6 +113,7 @@ def _meet(mesh: Mesh, nodes: int, connection: "Connection[bytes, bytes]") -> Non
     EOFError, OSError : the sea is gone
     """
     begun = time.monotonic()
+    mesh.join()
     while (there := mesh.alive()) < nodes:
         if time.monotonic() - begun > _MEETING:
             raise FleetError("mesh", f"has {there} of {nodes} nodes after {_MEETING:g} s", "see why the others end")

@@ -45,7 +45,9 @@ class Tick(NamedTuple):
 
     def of(self, ids: Any) -> "Tick":
         """The part of a tick that concerns some buoys."""
-        mine = np.isin(self.readings["id"], ids)
+        wanted = np.zeros(len(self.alive), bool)
+        wanted[list(ids)] = True
+        mine = wanted[self.readings["id"]]
         return self._replace(readings=self.readings[mine], hears=None if self.hears is None else self.hears[mine])
 
     def to_bytes(self) -> bytes:
@@ -138,6 +140,11 @@ def _tick(step: int, turn: int, count: int, agents: int, limited: int, rest: mem
     )
 
 
-def reading_of(row: Any) -> Reading:
-    """A row of READINGS as a buoy takes it."""
-    return Reading(*row.item()[1:])
+def numbers_of(tick: Tick) -> npt.NDArray[np.float64]:
+    """What the instruments of a tick say as numbers, (n, 8), in the order of a Reading's fields."""
+    return np.array([tick.readings[name] for name in Reading._fields], float).T.copy()
+
+
+def readings_of(tick: Tick) -> list[tuple[int, Reading]]:
+    """What the instruments of a tick say, as buoys take it, each with its buoy."""
+    return [(id, Reading(*rest)) for id, *rest in tick.readings.tolist()]

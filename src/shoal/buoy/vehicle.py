@@ -178,6 +178,10 @@ class Vehicle:
         """Ask it to let its motors turn."""
         self._command(ARM, 1)
 
+    def ask_to_disarm(self) -> None:
+        """Ask it to let its motors turn no more."""
+        self._command(ARM, 0)
+
     def ask_positions(self, every: float) -> None:
         """Ask it to say where it is, every so often [s]: by itself it need not."""
         self._command(SET_INTERVAL, POSITION, every * 1e6)

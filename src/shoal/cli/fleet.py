@@ -3,7 +3,7 @@
 from contextlib import suppress
 from pathlib import Path
 from threading import Event
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
@@ -26,6 +26,7 @@ def fleet(
     neighbors: Annotated[str | None, Parameter(name=["--neighbors", "-k"])] = None,
     fast: MaybeInteger = None,
     agents: MaybeInteger = None,
+    density: Literal["keep"] | None = None,
     target_speed: str | None = None,
     steps: Annotated[MaybeSteps, Parameter(name=["--steps", "--for"])] = None,
     seed: MaybeInteger = None,
@@ -63,6 +64,8 @@ def fleet(
         Number of buoys of the fastest fleet; the slowest fleet gives or takes the difference.
     agents
         Number of buoys in all, in the scenario's shares of fleets.
+    density
+        keep: with --agents, the sides of the arena grow with the root of their number.
     target_speed
         Speed of the waypoint targets: m/s, or with a unit, such as "6 kn".
     steps
@@ -88,7 +91,7 @@ def fleet(
     mesh
         zenoh, between processes; or memory, all in this process and in lockstep.
     max_age
-        Steps that a report may be old to be heard; default 0 with --lockstep, else 1.
+        network.max_age: steps that a report may be old to be gone by; by the clock 1 at least unless this is said.
     plain
         Let buoys decide without a compiler: they start at once, with a third of the memory.
     watch
@@ -117,6 +120,7 @@ def fleet(
 
     changes: dict[str, Any] = {
         "agents": agents,
+        "density": density,
         "fast": fast,
         "strategy": strategy,
         "neighbors": neighbors,

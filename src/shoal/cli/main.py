@@ -5,7 +5,7 @@ import sys
 from cyclopts import App, CycloptsError
 
 from shoal.cli.output import CANNOT_PRINT, CannotPrintError, drop_stdout, guarded_stdout, silence_stderr, tell
-from shoal.cli.signals import exit_code, heed_signals
+from shoal.cli.signals import exit_code, heed_signals, interrupt_behind
 from shoal.core.errors import ShoalError
 from shoal.core.text import readable
 from shoal.core.version import VERSION
@@ -57,8 +57,7 @@ def run_command(tokens: list[str]) -> int:
         if any("\0" in token for token in tokens):
             raise ShoalError("command line", "holds a NUL", "leave it out")
         with guarded_stdout():
-            code = app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
-            return code if type(code) is int else 0
+            return _code_of(tokens)
     except CycloptsError as error:
         tell(readable(f"{_one_line(error)}\n  fix: see `shoal{_verb(tokens)} --help`"))
         return BAD_INPUT
@@ -85,6 +84,16 @@ def run_command(tokens: list[str]) -> int:
         tell("there is not enough memory\n  fix: ask for less: fewer agents, runs, frames or combinations")
         return BAD_INPUT
     return 0
+
+
+def _code_of(tokens: list[str]) -> int:
+    try:
+        code = app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
+    except Exception as error:
+        if interrupt := interrupt_behind(error):
+            raise interrupt from None
+        raise
+    return code if type(code) is int else 0
 
 
 def _verb(tokens: list[str]) -> str:

@@ -19,6 +19,7 @@ def run(
     neighbors: Annotated[str | None, Parameter(name=["--neighbors", "-k"])] = None,
     fast: MaybeInteger = None,
     agents: MaybeInteger = None,
+    density: Literal["keep"] | None = None,
     target_speed: str | None = None,
     steps: MaybeSteps = None,
     seed: MaybeInteger = None,
@@ -46,6 +47,8 @@ def run(
         Number of agents of the fastest fleet; the slowest fleet gives or takes the difference.
     agents
         Number of agents in all, in the scenario's shares of fleets.
+    density
+        keep: with --agents, the sides of the arena grow with the root of their number.
     target_speed
         Speed of the waypoint targets: m/s, or with a unit, such as "6 kn".
     steps
@@ -81,6 +84,7 @@ def run(
 
     changes: dict[str, Any] = {
         "agents": agents,
+        "density": density,
         "fast": fast,
         "strategy": strategy,
         "neighbors": neighbors,

@@ -26,5 +26,17 @@ def exit_code(interrupt: KeyboardInterrupt) -> int:
     return 128 + (interrupt.number if isinstance(interrupt, Ended) else signal.SIGINT)
 
 
+def interrupt_behind(error: BaseException) -> KeyboardInterrupt | None:
+    """The interrupt that an error was made of: Python before 3.12 does, in a class body of a module being imported."""
+    seen: list[BaseException] = []  # `raise error from error` makes a circle
+    cause = error.__cause__
+    while cause is not None and not any(cause is each for each in seen):
+        if isinstance(cause, KeyboardInterrupt):
+            return cause
+        seen.append(cause)
+        cause = cause.__cause__
+    return None
+
+
 def _end(number: int, _: FrameType | None) -> None:
     raise Ended(number)

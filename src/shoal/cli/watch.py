@@ -3,7 +3,7 @@
 import webbrowser
 from contextlib import closing, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
@@ -27,6 +27,7 @@ def watch(
     neighbors: Annotated[str | None, Parameter(name=["--neighbors", "-k"])] = None,
     fast: MaybeInteger = None,
     agents: MaybeInteger = None,
+    density: Literal["keep"] | None = None,
     target_speed: str | None = None,
     steps: MaybeSteps = None,
     seed: MaybeInteger = None,
@@ -56,6 +57,8 @@ def watch(
         Number of agents of the fastest fleet; the slowest fleet gives or takes the difference.
     agents
         Number of agents in all, in the scenario's shares of fleets.
+    density
+        keep: with --agents, the sides of the arena grow with the root of their number.
     target_speed
         Speed of the waypoint targets: m/s, or with a unit, such as "6 kn".
     steps
@@ -90,6 +93,7 @@ def watch(
 
     changes: dict[str, Any] = {
         "agents": agents,
+        "density": density,
         "fast": fast,
         "strategy": strategy,
         "neighbors": neighbors,

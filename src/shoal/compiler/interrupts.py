@@ -1,29 +1,27 @@
-"""Ctrl-C and the like wait until a function is compiled: an exception amid numba's own work may be lost, or end Python.
+"""Ctrl-C and the like wait until numba is imported, or a function compiled: an exception amid that may be lost, turned
+into another, or end Python.
 
 They wait some seconds at most, for the one function, and are heard then.
 """
 
 import signal
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
-from numba.core import event
-
 _HEARD = ("SIGINT", "SIGTERM", "SIGHUP")
-_LISTENER: Any = event.Listener  # numba has no types that mypy sees
-_register: Any = event.register
 
 
-class _Deferring(_LISTENER):  # type: ignore[misc]
-    """Listens when numba takes and releases the lock under which it compiles."""
+class Deferral:
+    """Holds signals back between `begin` and `end`, which may be nested."""
 
     def __init__(self) -> None:
         self.depth = 0
         self.waiting: int | None = None
         self.handlers: dict[int, Callable[..., Any]] = {}
 
-    def on_start(self, event: Any) -> None:
+    def begin(self) -> None:
         """Take note of signals from now on."""
         if threading.current_thread() is not threading.main_thread():
             return  # only the main thread hears signals, and is not compiling
@@ -37,7 +35,7 @@ class _Deferring(_LISTENER):  # type: ignore[misc]
                 self.handlers[number] = handler
                 signal.signal(number, self._note)
 
-    def on_end(self, event: Any) -> None:
+    def end(self) -> None:
         """Let whoever is waiting be heard."""
         if threading.current_thread() is not threading.main_thread():
             return
@@ -55,6 +53,33 @@ class _Deferring(_LISTENER):  # type: ignore[misc]
         self.waiting = number
 
 
+_DEFERRAL = Deferral()
+
+
+@contextmanager
+def interrupts_wait() -> Iterator[None]:
+    """Let signals wait until the end of the block."""
+    _DEFERRAL.begin()
+    try:
+        yield
+    finally:
+        _DEFERRAL.end()
+
+
 def wait_for_the_compiler() -> None:
     """Let signals wait while numba compiles, from now on."""
-    _register("numba:compiler_lock", _Deferring())
+    from numba.core import event
+
+    listener: Any = event.Listener  # numba has no types that mypy sees
+    register: Any = event.register
+
+    class Compiling(listener):  # type: ignore[misc]
+        """Listens when numba takes and releases the lock under which it compiles."""
+
+        def on_start(self, event: Any) -> None:
+            _DEFERRAL.begin()
+
+        def on_end(self, event: Any) -> None:
+            _DEFERRAL.end()
+
+    register("numba:compiler_lock", Compiling())

@@ -2,8 +2,8 @@
 
 Without numba, on the small computer of a buoy, kernels are the plain functions that they are written as.
 
-Numba's cache does not notice an edited function in another file and would return old numbers silently, so the
-cache lives in a folder named by a hash of all our kernel sources (docs/decisions/0002-kernel-cache.md).
+A cache of compiled code does not notice an edited function in another file, and would return old numbers silently, so
+ours (cache.py) lives in a folder named by a hash of all our kernel sources (docs/decisions/0002-kernel-cache.md).
 
 A trap: in a kernel that calls an overload with inline="always" (`part`, `enter`, all of strategies/contract.py),
 numba removes writes into arrays that it does not see to be an argument's. It sees one dot, `swarm.x[i] = 1.0`, but
@@ -15,19 +15,18 @@ import hashlib
 import os
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from functools import cache
+from collections.abc import Callable
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from shoal.compiler.installed import offered_sources
-from shoal.compiler.late import ONE_AT_A_TIME, Kernel, compiles, is_installed, load, when_loaded
+from shoal.compiler.late import Kernel, compiles, is_installed, load, when_loaded
 from shoal.compiler.private import make_private
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-_COMPILED_FOLDERS = ("compiler", "core", "world", "strategies", "metrics", "engine")
+COMPILED_FOLDERS = ("compiler", "core", "world", "strategies", "metrics", "engine")
 
 
 def kernel(function: Function) -> Function:
@@ -49,28 +48,16 @@ def _inner(function: Callable[..., Any]) -> Any:
     return Inner(function, targetoptions={"nopython": True, **INNER_FLAGS}, pipeline_class=InlinedCompiler)
 
 
-def _entry(function: Callable[..., Any]) -> Any:
-    from shoal.compiler.inner import FLAGS
-
-    with kernel_cache():
-        return load().njit(function, cache=True, **FLAGS)
+def _entry(function: Callable[..., Any], made_of: str = "") -> Any:
+    return keep(_own(function), function, made_of)
 
 
-@contextmanager
-def kernel_cache() -> Iterator[None]:
-    """Let numba keep what is decorated inside in our cache folder.
+def keep(compiles_it: Any, function: Callable[..., Any], made_of: str = "") -> Any:
+    """Let what compiles a function, numba's dispatcher or callback, keep machine code in our folder; return it."""
+    from shoal.compiler.cache import Cache
 
-    One thread at a time: numba reads its setting twice, and where another thread had left in between, it would keep
-    compiled code in, and run it from, whatever folder the process is in.
-    """
-    with ONE_AT_A_TIME:
-        settings = load().config
-        outside = settings.CACHE_DIR
-        settings.CACHE_DIR = str(cache_folder())
-        try:
-            yield
-        finally:
-            settings.CACHE_DIR = outside
+    compiles_it._cache = Cache(function, cache_folder(), made_of)
+    return compiles_it
 
 
 def plain(function: Function) -> Function:
@@ -89,11 +76,47 @@ def overload(function: Callable[..., Any], **options: Any) -> Callable[[Function
     return say
 
 
-def uncached(entry: Function) -> Function:
-    """Return a twin of an entry kernel that never touches the cache: for strategies whose source we do not hash."""
+def twin(entry: Function, made_of: str | None) -> Function:
+    """Return an entry kernel of its own, for strategies whose source the folder's hash does not cover.
+
+    Parameters
+    ----------
+    entry : the kernel
+    made_of : a hash of what they are compiled from; None: nobody knows, so that the machine code is not kept
+    """
     if not compiles():
         return entry
-    return cast(Function, Kernel(plain(entry), _own))
+    make = _own if made_of is None else partial(_entry, made_of=made_of)
+    return cast(Function, Kernel(plain(entry), make))
+
+
+def compile_for(entry: Any, *arguments: Any) -> None:
+    """Compile an entry kernel for such arguments, or load it from the cache, without running it."""
+    if compiles():
+        entry.compile(tuple(load().typeof(each) for each in arguments))
+
+
+class Entry:
+    """An entry kernel that is always called with arguments of the same kinds, as a part that is compiled by itself.
+
+    Attributes
+    ----------
+    name : of the kernel
+    """
+
+    def __init__(self, entry: Any, *arguments: Any) -> None:
+        self.name: str = entry.__name__
+        self._entry = entry
+        self._arguments = arguments  # examples
+
+    def is_kept(self) -> bool:
+        """Whether its machine code is in the cache."""
+        kinds = tuple(load().typeof(each) for each in self._arguments)
+        return bool(self._entry.dispatcher._cache.file(kinds, self._entry.targetctx).exists())
+
+    def address(self) -> None:
+        """Compile it, or load it."""
+        compile_for(self._entry, *self._arguments)
 
 
 def _own(function: Callable[..., Any]) -> Any:
@@ -142,7 +165,7 @@ def sources_hash() -> str:
     """First 16 hex digits of a hash over every kernel source, installed packages' too, and the compiler's version."""
     digest = hashlib.sha256(load().__version__.encode())
     root = Path(__file__).parent.parent
-    for name in _COMPILED_FOLDERS:
+    for name in COMPILED_FOLDERS:
         for source in sorted((root / name).rglob("*.py")):
             digest.update(source.read_bytes())
     for text in offered_sources():

@@ -10,8 +10,10 @@ import sys
 import threading
 import warnings
 from collections.abc import Callable
-from functools import cache, cached_property, update_wrapper
+from functools import cache, update_wrapper
 from typing import Any
+
+from shoal.compiler.interrupts import interrupts_wait, wait_for_the_compiler
 
 ONE_AT_A_TIME = threading.RLock()
 
@@ -33,17 +35,14 @@ class Kernel:
         self.py_func = function
         self._make = make
 
-    @cached_property
-    def dispatcher(self) -> Any:
-        """Load numba, and let it know the function."""
-        load()
-        return self._make(self.py_func)
-
     def __call__(self, *arguments: Any) -> Any:
         """Run it, compiled."""
         return self.dispatcher(*arguments)
 
     def __getattr__(self, name: str) -> Any:
+        if name == "dispatcher":  # no lock: whoever compiles holds others; of two that are made at once, one stays
+            load()
+            return self.__dict__.setdefault(name, self._make(self.py_func))
         if name == "_numba_type_" or not name.startswith("_"):  # by the first, numba knows what kernels mean it
             return getattr(self.dispatcher, name)
         raise AttributeError(name)
@@ -55,7 +54,7 @@ class Kernel:
 def load() -> Any:
     """Import numba, the first time, and tell it what was said of functions; return the module."""
     if not _loaded:
-        with ONE_AT_A_TIME:
+        with ONE_AT_A_TIME, interrupts_wait():
             if not _loaded:
                 _load()
     return _loaded[0]
@@ -71,10 +70,9 @@ def when_loaded(say: Callable[[Any], object]) -> None:
 
 
 def _load() -> None:
+    import numba.core.ccallback  # else it is imported with the first phase
     import numba.extending
     from numba.core.errors import NumbaExperimentalFeatureWarning
-
-    from shoal.compiler.interrupts import wait_for_the_compiler
 
     # Fleets with strategies of their own share memory records, which numba passes by their first fields and warns of.
     warnings.filterwarnings("ignore", message="Record", category=NumbaExperimentalFeatureWarning)

@@ -16,13 +16,16 @@ from collections.abc import Callable
 from typing import Any
 
 from llvmlite import ir
-from numba import cfunc, types
+from numba import types
+from numba.core.ccallback import CFunc
+from numba.core.registry import cpu_target
 from numba.extending import intrinsic, overload
 
 from shoal.compiler.inner import FLAGS
-from shoal.compiler.kernel import kernel_cache
+from shoal.compiler.kernel import keep
 from shoal.compiler.late import compiles
 
+_callback: Any = CFunc  # numba has no types that mypy sees
 _SIGNATURE = types.int64(types.int64, types.int64, types.int64, types.int64, types.uint64)
 
 
@@ -30,6 +33,7 @@ class Phase:
     """A function of (address of the stage, three integers, key) -> integer."""
 
     def __init__(self, function: Callable[..., int]) -> None:
+        self.name = function.__name__
         self.function = function
         self._compiled: Any = None
 
@@ -38,9 +42,18 @@ class Phase:
         if not compiles():
             return self.function
         if self._compiled is None:
-            with kernel_cache():
-                self._compiled = cfunc(_SIGNATURE, cache=True, **FLAGS)(self.function)
+            compiled = self._callback()
+            compiled.compile()
+            self._compiled = compiled
         return self._compiled.address
+
+    def is_kept(self) -> bool:
+        """Whether its machine code is in the cache."""
+        return bool(self._callback()._cache.file(_SIGNATURE, cpu_target.target_context).exists())
+
+    def _callback(self) -> Any:
+        kinds = (_SIGNATURE.args, _SIGNATURE.return_type)
+        return keep(_callback(self.function, kinds, {}, FLAGS), self.function)
 
 
 def phase(function: Callable[..., int]) -> Phase:

@@ -94,9 +94,9 @@ def _refuse_other_types(stage: Any) -> None:
 def _leaves(value: Any, name: str) -> Any:
     """Name and kind of every number and array in nested NamedTuples: what numba makes different types of."""
     if isinstance(value, np.ndarray):
-        flags = value.flags
-        order = "C" if flags.c_contiguous else "F" if flags.f_contiguous else "A"
-        yield name, _words(value.dtype, value.ndim, order, flags.aligned and flags.writeable)
+        layout = "C" if value.flags.c_contiguous else "F" if value.flags.f_contiguous else "A"
+        flags = "" if value.flags.aligned and value.flags.writeable else " (read-only or unaligned)"
+        yield name, f"{_word(value.dtype)}[{', '.join(':' * value.ndim)}] in {layout} order{flags}"
     elif isinstance(value, tuple):
         for field, each in zip(value._fields, value, strict=True):  # type: ignore[attr-defined]
             yield from _leaves(each, f"{name}.{field}")
@@ -106,13 +106,8 @@ def _leaves(value: Any, name: str) -> Any:
 
 @cache
 def _word(dtype: Any) -> str:
-    return str(dtype.name)
-
-
-@cache
-def _words(dtype: Any, dimensions: int, order: str, usual: bool) -> str:
-    flags = "" if usual else " (read-only or unaligned)"
-    return f"{dtype}[{', '.join(':' * dimensions)}] in {order} order{flags}"
+    """What a dtype is called; NumPy takes its time to say it."""
+    return str(dtype)
 
 
 def put(value: Any, where: Any, room: Any) -> None:
@@ -152,7 +147,8 @@ def layout(whole_kind: Any) -> Any:
         if isinstance(whole, ir.ArrayType):  # of a NamedTuple whose fields are all alike
             size = whole.element.get_abi_size(data)
             return [offsets(each, start + size * place) for place, each in enumerate(kind)]
-        return [offsets(each, start + whole.get_element_offset(data, place)) for place, each in enumerate(kind)]
+        laid = whole._get_ll_global_value_type(data)  # once: `whole.get_element_offset` parses it for every field
+        return [offsets(each, start + data.get_element_offset(laid, place)) for place, each in enumerate(kind)]
 
     return offsets(whole_kind, 0)
 

@@ -124,6 +124,14 @@ class Memories(NamedTuple):
     arrived: npt.NDArray[Any]
 
 
+class KeptMemories(Memories):
+    """Memories where reports are kept: what is compiled for them goes by a report of its own for each pair."""
+
+
+class ListedMemories(Memories):
+    """Memories where there are many agents: what is compiled for them goes by lists of neighbors."""
+
+
 NEVER = 1 << 62  # a step that does not come
 
 

@@ -56,7 +56,9 @@ def check_file(path: str | Path, *, new: bool = False, ours: bool = False) -> Pa
         with (trial := _beside(place)).open("xb"):
             trial.unlink()
     except (OSError, ValueError) as error:
-        raise error if isinstance(error, RecordError) else _unwritable(where, error) from error
+        if isinstance(error, RecordError):
+            raise
+        raise _unwritable(where, error) from error
     return place
 
 

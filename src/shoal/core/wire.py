@@ -13,14 +13,13 @@ from typing import Any
 
 from shoal.core.errors import MessageError
 
-_VERSION = 1
-_HEAD = struct.Struct("<BIdddddB")
+VERSION = 1
 _CHECK = struct.Struct("<I")
 
 
 def wire_bytes(told: int) -> int:
     """Size of a report that tells this many numbers [B]."""
-    return _HEAD.size + 8 * told + _CHECK.size
+    return _body(told).size + _CHECK.size
 
 
 def pack(report: Any) -> bytes:
@@ -30,12 +29,9 @@ def pack(report: Any) -> bytes:
     ------
     MessageError : a number is not finite, or the id is not one of 32 bits
     """
-    told = tuple(report.told)
+    number, x, y, vx, vy, on_target, told, time, _ = report
     try:
-        head = _HEAD.pack(
-            _VERSION, report.id, report.time, report.x, report.y, report.vx, report.vy, bool(report.on_target)
-        )
-        body = head + struct.pack(f"<{len(told)}d", *told)
+        body = _body(len(told)).pack(VERSION, number, time, x, y, vx, vy, bool(on_target), *told)
     except struct.error as error:
         raise MessageError("report", f"cannot be written: {error}", "give an id of 32 bits, and numbers") from error
     _check_finite(report, told)
@@ -64,13 +60,13 @@ def unpack(data: Any, told: tuple[str, ...], report: type[Any]) -> Any:
         fields = f" with {', '.join(told)}" if told else ""
         raise MessageError("report", f"has {len(data)} bytes, but one{fields} has {size}", "drop it")
     body = data[: -_CHECK.size]
-    if _CHECK.unpack(data[-_CHECK.size :])[0] != zlib.crc32(body):
+    if _CHECK.unpack_from(data, len(body))[0] != zlib.crc32(body):
         raise MessageError("report", "is damaged: its checksum does not match", "drop it; the next comes in a step")
-    version, number, time, x, y, vx, vy, on_target = _HEAD.unpack_from(body)
-    if version != _VERSION:
-        problem = f"is of version {version} of the format, this is version {_VERSION}"
+    version, number, time, x, y, vx, vy, on_target, *rest = _body(len(told)).unpack(body)
+    if version != VERSION:
+        problem = f"is of version {version} of the format, this is version {VERSION}"
         raise MessageError("report", problem, "give all buoys the same version of Shoal")
-    numbers = told_class(told)(*struct.unpack_from(f"<{len(told)}d", body, _HEAD.size))
+    numbers = told_class(told)(*rest)
     read = report(number, x, y, vx, vy, bool(on_target), numbers, time)
     _check_finite(read, numbers)
     return read
@@ -94,11 +90,17 @@ def wire_dtype(told: tuple[str, ...] = ()) -> Any:
 
 
 @cache
+def _body(told: int) -> struct.Struct:
+    return struct.Struct(f"<BIdddddB{told}d")
+
+
+@cache
 def told_class(told: tuple[str, ...]) -> type[Any]:
     """NamedTuple of what is told."""
     return namedtuple("Told", told)
 
 
 def _check_finite(report: Any, told: tuple[float, ...]) -> None:
-    if not all(map(math.isfinite, (report.time, report.x, report.y, report.vx, report.vy, *told))):
+    _, x, y, vx, vy, _, _, time, _ = report
+    if not all(map(math.isfinite, (x, y, vx, vy, time, *told))):
         raise MessageError("report", f"of agent {report.id} holds a number that is not finite", "drop it")

@@ -7,7 +7,7 @@ import numpy as np
 from shoal.compiler.kernel import kernel
 from shoal.core.messages import Briefing, Own, Report, Truth
 from shoal.strategies import contract
-from shoal.world.neighbors import linked
+from shoal.world.neighbors import within
 
 
 class Arrived(NamedTuple):
@@ -47,11 +47,11 @@ def choose_leaders(arrived, listeners, links, params, agents, leader, lowest):
         other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, None)
         if contract.leads(other, params):
             for i in range(lanes):
-                me = _listener(listeners, i)
+                me = listener(listeners, i)
                 rank = contract.rank_of(links.rank, j, i, params)
                 other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
                 priority = contract.priority(me, other, params)
-                better = linked(links, j, i) and priority < lowest[i]
+                better = within(links, j, i) and priority < lowest[i]
                 lowest[i] = priority if better else lowest[i]
                 leader[i] = j if better else leader[i]
 
@@ -69,27 +69,33 @@ def sum_influence(arrived, listeners, links, params, agents, sums):
     for j in range(agents):
         if contract.has_influence(params):
             for i in range(lanes):
-                me = _listener(listeners, i)
+                me = listener(listeners, i)
                 rank = contract.rank_of(links.rank, j, i, params)
                 other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
                 pushed = contract.influence(me, other, params)
-                heard_now = linked(links, j, i)
+                heard_now = within(links, j, i)
                 contract.add(sums, i, pushed, heard_now)
                 heard[i] += 1 if heard_now else 0
         else:
             for i in range(lanes):
-                heard[i] += 1 if linked(links, j, i) else 0
+                heard[i] += 1 if within(links, j, i) else 0
 
 
 @kernel
-def _listener(listeners, i):
+def listener(listeners, i):
     """Lane i of a block, as far as pairs need it: listeners in the inner loops have no briefing and no truth."""
+    return listener_at(listeners, i, listeners.x[i], listeners.y[i])
+
+
+@kernel
+def listener_at(listeners, i, x, y):
+    """Lane i of a block, which is at x, y."""
     briefing = Briefing(0, 0.0, 0.0, 0.0, 0.0, 0.0, False, 0.0, 0.0)
     truth = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     return Own(
         listeners.first + i,
-        listeners.x[i],
-        listeners.y[i],
+        x,
+        y,
         listeners.vx[i],
         listeners.vy[i],
         listeners.on_target[i],

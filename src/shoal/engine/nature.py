@@ -1,4 +1,5 @@
-"""What nature does in a step: phases that only runs with disturbances, a sea or a coast compile, and others call.
+"""What nature does in a step: phases that only runs with disturbances, a sea, a coast or radios that relay or keep
+reports compile, and others call.
 
 See phases.py for what a phase is given.
 """
@@ -11,7 +12,8 @@ from shoal.engine.stage import NATURE, RADIO, RUN, SCRATCH, SEA, SWARM, TARGETS,
 from shoal.world.disturbances.dispatch import disturb
 from shoal.world.motion import add_drift, sail, sail_coast
 from shoal.world.placement import launch
-from shoal.world.radio import said
+from shoal.world.radio import arrival_key, lose_reports, said, spoken
+from shoal.world.reception import measure_relayed, recall, relay, want_nearest
 from shoal.world.sea.sea import carry, span
 from shoal.world.sea.sight import Places, hide_behind_land
 from shoal.world.targets.afloat import drift, stop_at_land
@@ -38,6 +40,24 @@ def hide(stage, number, first, batch, key):
     if world.inexact:  # reports tell what is believed; waves go by where all are
         places = Places(swarm.x, swarm.y, radio.range_square)
     hide_behind_land(scratch.links, scratch.sight, places, part(stage, SEA).land, swarm.neighbors, first, world.agents)
+    return 0
+
+
+@phase
+def receive(stage, number, first, keeps, key):
+    """Reports are lost on their way to the agents from `first` on, others are relayed, and older ones kept."""
+    agents = part(stage, WORLD).agents
+    swarm = part(stage, SWARM)
+    radio = part(stage, RADIO)
+    scratch = part(stage, SCRATCH)
+    links = scratch.links
+    if radio.loss > 0.0:
+        lose_reports(links, radio, arrival_key(radio, part(stage, RUN), number), first, agents)
+    relay(links, scratch.hops, scratch.words, radio.hops, agents)
+    measure_relayed(links, scratch.hops, said(radio, swarm, number), swarm, agents)
+    if radio.max_age > 0:
+        recall(links, radio, swarm, spoken(radio, number), keeps != 0, agents)
+    want_nearest(links, swarm.neighbors, agents)
     return 0
 
 

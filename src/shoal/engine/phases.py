@@ -4,19 +4,24 @@ Every phase takes the address of the stage, the number of the step, the first ag
 the batch of the sums, and the key of the step's chance; it returns an integer.
 """
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
+from shoal.compiler.borrowed import lend
 from shoal.compiler.kernel import kernel
 from shoal.compiler.phase import enter, phase
 from shoal.compiler.placed import part
+from shoal.core.agents import Swarm
 from shoal.core.draws import TARGET_STREAM, split
 from shoal.core.plugin_errors import plugin_errors
-from shoal.engine.ahead import compile_ahead
+from shoal.engine.ahead import Part, compile_ahead, compile_all
 from shoal.engine.frames import keep_frame, keep_links
+from shoal.engine.many import link_many, look_at_many, settle_many
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
-from shoal.engine.nature import disturb_all, drift_targets, hide, launch_agent, sail_all, stop_target
+from shoal.engine.nature import disturb_all, drift_targets, hide, launch_agent, receive, sail_all, stop_target
+from shoal.engine.rollout import SET_OUT
 from shoal.engine.stage import (
     FRAMES,
     NATURE,
@@ -31,8 +36,11 @@ from shoal.engine.stage import (
     TRACKS,
     WORLD,
     Addresses,
+    Frames,
+    Scratch,
 )
 from shoal.metrics.contract import Step
+from shoal.metrics.tally import Tally
 from shoal.world.arena import World
 from shoal.world.energy import consume
 from shoal.world.motion import (
@@ -43,12 +51,14 @@ from shoal.world.motion import (
     note_drift,
     slow_down,
 )
-from shoal.world.neighbors import count_heard, link_nearest, measure_distances, rank_heard, settle_ties
+from shoal.world.neighbors import Links, count_heard, link_nearest, measure_distances, rank_heard, settle_ties
 from shoal.world.orders import obey
 from shoal.world.position import age_errors, locate
 from shoal.world.presence import update_presence
 from shoal.world.radio import (
+    Radio,
     adapt_degree,
+    arrival_key,
     deafen,
     hide_far_away,
     limit_links,
@@ -56,10 +66,12 @@ from shoal.world.radio import (
     said,
     send,
     speaks,
-    spoken,
 )
+from shoal.world.reception import collects
 from shoal.world.sensing import sense
 from shoal.world.targets.dispatch import advance_target
+
+lend(Swarm, Radio, Tally, Links, Scratch, Frames)
 
 SPOILED_AGENTS, SPOILED_TARGETS, SPOILED_DRIFT = 1, 2, 3  # what a run ends with whose numbers are not finite
 
@@ -101,13 +113,16 @@ def link(stage, number, first, batch, key):
     swarm = part(stage, SWARM)
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
-    find_links(stage, scratch, world, swarm, radio, part(stage, NATURE).effects, number, first)
+    find_links(stage, scratch, world, swarm, radio, number, first, True)
     return 0
 
 
 @kernel
-def find_links(stage, scratch, world, swarm, radio, effects, number, first):
-    """Link the agents from `first` on to those whose reports may reach them, ties and losses aside."""
+def find_links(stage, scratch, world, swarm, radio, number, first, keeps):
+    """Link the agents from `first` on to those whose reports may reach them, ties and losses aside.
+
+    keeps : whether agents remember what they hear now; else this is but a look
+    """
     links = scratch.links
     phases = part(stage, PHASES)
     last = first + links.reach.size
@@ -116,7 +131,7 @@ def find_links(stage, scratch, world, swarm, radio, effects, number, first):
         links, reports.x, reports.y, swarm.fix_x[first:last], swarm.fix_y[first:last], first, world.agents
     )
     if world.disturbed:
-        deafen(links, effects, first, world.agents)
+        deafen(links, part(stage, NATURE).effects, first, world.agents)
     range_square = radio.range_square
     if world.inexact:
         hide_far_away(links, swarm, range_square, first, world.agents)
@@ -125,6 +140,8 @@ def find_links(stage, scratch, world, swarm, radio, effects, number, first):
         enter(phases.hide, stage, number, first, 0, 0)
     if radio.limited:
         limit_links(links, swarm, radio, first, world.agents, number, range_square)
+    if collects(radio):
+        enter(phases.receive, stage, number, first, 1 if keeps else 0, 0)
     if radio.limited or world.coastal:
         link_nearest(links, links.wanted, world.agents)
     else:
@@ -149,9 +166,8 @@ def settle_links(links, world, swarm, radio, run, number, first):
         changed = settle_ties(links, links.wanted, world.agents)
     else:
         changed = settle_ties(links, swarm.neighbors[first : first + links.reach.size], world.agents)
-    if radio.loss > 0.0:
-        key = split(split(split(run.seed, 0), run.run), spoken(radio, number) + radio.delay)
-        lose_reports(links, radio, key, first, world.agents)
+    if radio.loss > 0.0 and not collects(radio):
+        lose_reports(links, radio, arrival_key(radio, run, number), first, world.agents)
         changed = True
     if changed:
         rank_heard(links, world.agents)
@@ -287,33 +303,43 @@ def look_at_links(stage, number, first, frame, key):
     radio = part(stage, RADIO)
     scratch = part(stage, SCRATCH)
     links = scratch.links
-    find_links(stage, scratch, world, swarm, radio, part(stage, NATURE).effects, number, first)
+    find_links(stage, scratch, world, swarm, radio, number, first, False)
     count_heard(links, world.agents)
     settle_links(links, world, swarm, radio, part(stage, RUN), number, first)
     keep_links(frames, frame, links, first, world.agents)
     return 0
 
 
-def addresses(world: World, frames: bool = False) -> Addresses:
+def addresses(
+    world: World,
+    frames: bool = False,
+    looking: bool = False,
+    collecting: bool = False,
+    first: Callable[[], object] | None = None,
+) -> Addresses:
     """Compile the phases that a run needs, or load them from the cache; the others are nowhere, at 0.
 
     Parameters
     ----------
     world : what there is in the run
-    frames : whether frames are kept, or looked at
+    frames : whether frames are kept; looking : whether links are, of a step that does not begin
+    collecting : whether radios relay or keep reports
+    first : compiles what other processes cannot, while these begin with the phases
 
     Raises
     ------
     PluginError : what an installed package counts or moves cannot be compiled
     """
     at_sea = world.flowing or world.coastal
+    many = world.listed > 0
     needed = [
         (sense_all, True),
         (disturb_all, world.disturbed),
         (record_frame, frames),
-        (link, True),
+        (link_many if many else link, True),
         (hide, world.coastal),
-        (settle, True),
+        (receive, collecting),
+        (settle_many if many else settle, True),
         (record_links, frames),
         (move_agents, True),
         (sail_all, at_sea),
@@ -322,10 +348,14 @@ def addresses(world: World, frames: bool = False) -> Addresses:
         (move_targets, True),
         (stop_target, world.coastal),
         (come_to_rest, True),
-        (look_at_links, frames),
+        (look_at_many if many else look_at_links, looking),
         (launch_agent, world.coastal),
     ]
-    compile_ahead([each for each, wanted in needed if wanted])
+    parts: list[Part] = [SET_OUT, *(each for each, wanted in needed if wanted)]
+    compile_ahead(parts, soon=[record_frame, record_links])
+    if first:
+        first()
     with plugin_errors():
+        compile_all(parts)
         where: list[Any] = [each.address() if wanted else 0 for each, wanted in needed]
     return Addresses(*where)

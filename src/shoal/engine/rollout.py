@@ -3,7 +3,9 @@
 `stage` is the address of a stage (compiler/placed.py), which the caller keeps in place until the call is back.
 """
 
-from shoal.compiler.kernel import entry_kernel
+import numpy as np
+
+from shoal.compiler.kernel import Entry, entry_kernel
 from shoal.compiler.phase import enter
 from shoal.compiler.placed import part
 from shoal.core.draws import START_STEP, TARGET_STREAM, split
@@ -53,6 +55,9 @@ def set_out(stage, places, lifetimes, losses):
         begin_degree(swarm, radio, world.agents)
     for j in range(targets.size):
         begin_target(targets[j], tracks, swarm, sea, world, split(start_key, TARGET_STREAM + j))
+
+
+SET_OUT = Entry(set_out, 0, np.zeros(1, np.int64), np.zeros(1), np.zeros((1, 4), np.int64))
 
 
 @entry_kernel

@@ -14,6 +14,7 @@ from shoal.world.disturbances.catalogue import DISTURBANCE_FIELDS, MEMORY
 from shoal.world.disturbances.contract import EFFECTS, NOT_BEGUN, Nature
 from shoal.world.neighbors import Links, new_links
 from shoal.world.radio import Radio, new_radio
+from shoal.world.reception import new_words
 from shoal.world.sea.sea import Sea, calm_sea
 from shoal.world.sea.sight import Sight, new_sight
 from shoal.world.targets.catalogue import TARGET_FIELDS
@@ -24,6 +25,8 @@ class Scratch(NamedTuple):
     """Working arrays; nothing in them outlives a step but the guess in links.reach.
 
     leader : (B,) index of whom each of the B agents that decide together follows; sums : (S, B) of their influences
+    hops : (N, L) over how many the report of each (row) reaches the others now, 0: not; no rows where nobody relays or
+        keeps reports, see world/reception.py; words : (N + 3, W) sets of agents, for that
     """
 
     links: Links
@@ -34,6 +37,8 @@ class Scratch(NamedTuple):
     c: Floats
     d: Floats
     sight: Sight
+    hops: npt.NDArray[np.int8]
+    words: npt.NDArray[np.int64]
 
 
 class Frames(NamedTuple):
@@ -70,6 +75,7 @@ class Addresses(NamedTuple):
     record_frame: Any
     link: Any
     hide: Any
+    receive: Any
     settle_ties: Any
     record_links: Any
     move: Any
@@ -113,14 +119,15 @@ class Stage(NamedTuple):
     run: Run
 
 
-def new_scratch(world: World, lanes: int, sums: int = 2, ranked: bool = False) -> Scratch:
+def new_scratch(world: World, lanes: int, sums: int = 2, ranked: bool = False, collecting: bool = False) -> Scratch:
     """Return scratch for blocks of agents that decide together: all of them, or one in the sequential order.
 
-    sums : how many the strategy has; ranked : whether it asks for the ranks of neighbors
+    sums : how many the strategy has; ranked : whether it asks for the ranks of neighbors; collecting : whether radios
+    relay or keep reports
     """
     width = 1 if world.sequential else lanes
     return Scratch(
-        links=new_links(world.agents, width, ranked),
+        links=new_links(world.agents, width, ranked, world.listed),
         leader=np.zeros(width, np.int64),
         sums=aligned_zeros(sums * width).reshape((sums, width)),
         a=aligned_zeros(lanes),
@@ -128,6 +135,8 @@ def new_scratch(world: World, lanes: int, sums: int = 2, ranked: bool = False) -
         c=aligned_zeros(lanes),
         d=aligned_zeros(lanes),
         sight=new_sight(world.agents if world.coastal else 0, lanes),
+        hops=np.zeros((world.agents if collecting else 0, lanes), np.int8),
+        words=new_words(world.agents if collecting else 0),
     )
 
 

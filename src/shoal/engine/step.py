@@ -10,11 +10,11 @@ from shoal.compiler.kernel import kernel
 from shoal.compiler.phase import enter
 from shoal.core.draws import split
 from shoal.core.messages import Heard
-from shoal.engine.listen import Arrived, Listeners, choose_leaders, sum_influence
+from shoal.engine.arrivals import arriving, choose, said_by, sum_up, told_by
+from shoal.engine.listen import Listeners
 from shoal.engine.self import own
 from shoal.engine.stage import Addresses, Scratch
 from shoal.strategies import contract
-from shoal.world.radio import row, said, spoken
 
 
 class Parts(NamedTuple):
@@ -41,13 +41,11 @@ class Now(NamedTuple):
 @kernel
 def step(parts, memories, params, now):
     """Advance the world by a time-step: Algorithm 2."""
-    phases, world, radio = parts.phases, parts.world, parts.radio
+    phases, world = parts.phases, parts.world
     run(phases.sense, parts, now, 0)  # f_i of all agents (Eq. 1), and Eq. 5 of the velocities that they have
     if now.frame >= 0:
         run(phases.record_frame, parts, now, now.frame)
-    then = spoken(radio, now.number)
-    told = memories.told if then == now.number else memories.arrived[row(radio, then)]
-    arrived = Arrived(said(radio, parts.swarm, now.number), told, then * world.time_step)
+    arrived = arriving(memories, parts.radio, parts.swarm, now.number, world.time_step)
     together = parts.scratch.leader.size
     for first in range(0, world.agents, together):  # in one go; one after the other in the sequential order
         run(phases.link, parts, now, first)  # N_i: the k nearest others
@@ -85,10 +83,10 @@ def listen(parts, arrived, params, now, first):
         now.number * world.time_step,
     )
     for turn in range(2):  # the second where ties or losses changed who is heard; written once, compiled once
-        sum_influence(arrived, listeners, scratch.links, params, world.agents, scratch.sums)
+        sum_up(arrived, listeners, scratch.links, params, world.agents, scratch.sums)
         if turn == 1 or run(parts.phases.settle_ties, parts, now, first) == 0:
             break
-    choose_leaders(arrived, listeners, scratch.links, params, world.agents, scratch.leader, scratch.a)
+    choose(arrived, listeners, scratch.links, params, world.agents, scratch.leader, scratch.a)
 
 
 @kernel
@@ -97,7 +95,7 @@ def decide(swarm, parts, arrived, memories, params, now, first):
 
     `swarm` is parts.swarm: what is written to must be near, see compiler/kernel.py.
     """
-    world, scratch, reports = parts.world, parts.scratch, arrived.said
+    world, scratch = parts.world, parts.scratch
     last = min(first + scratch.leader.size, world.agents)
     for i in range(first, last):
         if swarm.alive[i] == 0.0:
@@ -108,17 +106,18 @@ def decide(swarm, parts, arrived, memories, params, now, first):
         me = own(world, swarm, parts.targets, params, now.number, i)
         found = scratch.leader[lane] >= 0
         j = scratch.leader[lane] if found else i
+        x, y, vx, vy, on_target = said_by(arrived, j, lane)
         heard = Heard(
             found,
-            reports.x[j] if found else me.x,
-            reports.y[j] if found else me.y,
-            reports.vx[j] if found else me.vx,
-            reports.vy[j] if found else me.vy,
-            reports.on_target[j] if found else me.on_target,
+            x if found else me.x,
+            y if found else me.y,
+            vx if found else me.vx,
+            vy if found else me.vy,
+            on_target if found else me.on_target,
             0.0,
             0.0,
             scratch.links.heard[lane],
-            arrived.told[j],
+            told_by(arrived, j, lane),
             scratch.sums[:, lane],
         )
         vx, vy = contract.decide(me, heard, memories.memory[i], params, split(now.key, i))

@@ -11,8 +11,8 @@ from shoal.scenario.crew import crew_of
 def compiled_first(execute: Executor, tell: Callable[[str], None]) -> Executor:
     """Return an executor that compiles the strategies of its tasks first; `tell` gets a line for each.
 
-    Threads would wait for each other: numba compiles one function at a time. Strategies that come with Shoal are
-    compiled once per version, those from a file in every process.
+    Threads would wait for each other: numba compiles one function at a time. Strategies are compiled once
+    per version, those from a file once per version of all that they are made of, if that can be told.
 
     Raises
     ------

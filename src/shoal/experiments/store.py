@@ -16,7 +16,7 @@ from typing import Any, Self
 from urllib.parse import quote
 from uuid import uuid4
 
-from shoal.core.errors import RecordError, reason_of
+from shoal.core.errors import RecordError, ShoalError, reason_of
 from shoal.core.files import OwnFolder
 from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.experiments.cells import Cell
@@ -34,6 +34,7 @@ from shoal.experiments.store_rows import (
     read_row,
     write_meta,
 )
+from shoal.scenario.load import scenario_from
 
 _PATIENCE = 30.0  # [s] for readers, which are quick
 
@@ -213,11 +214,10 @@ class Store:
             )
         if meta.format < 2:  # no checksums
             raise RecordError(self._where, "was made by an older Shoal", "use another folder")
-        differences = [
-            difference
-            for name in IDENTITY
-            for difference in _differences(name, meta.identity[name], _as_json((self._identity or {})[name]))
-        ]
+        now = _as_json(self._identity or {})
+        pairs = {name: (meta.identity[name], now[name]) for name in IDENTITY}
+        pairs["scenario"] = _of_today(*pairs["scenario"])
+        differences = [each for name, (one, other) in pairs.items() for each in _differences(name, one, other)]
         if differences:
             raise RecordError(
                 self._where,
@@ -273,6 +273,14 @@ def _connect(file: Path, mode: str | None, patience: float | None = None) -> sql
 
 def _as_json(value: Any) -> Any:
     return json.loads(json.dumps(value))
+
+
+def _of_today(*tables: Any) -> tuple[Any, ...]:
+    """Scenarios with all fields that this Shoal knows, at their defaults where they say nothing; else as they are."""
+    try:
+        return tuple(scenario_from(table).model_dump(mode="json") for table in tables)
+    except ShoalError:
+        return tables
 
 
 def _differences(path: str, then: Any, now: Any) -> list[str]:

@@ -1,9 +1,12 @@
 """The network as a graph: how many parts it falls into, and how clustered it is."""
 
+import numpy as np
+
 from shoal.compiler.kernel import kernel
 from shoal.metrics.contract import Measurement, Metric, Sum
 from shoal.metrics.shares import share
-from shoal.world.neighbors import linked
+from shoal.world.lists import LANES
+from shoal.world.neighbors import within
 
 EVERY = 500  # steps between two looks at the graph
 
@@ -17,50 +20,104 @@ def tally_graph(tally, step, world, swarm, targets, scratch):
     """
     if world.sequential or step.number % EVERY != 0:
         return
+    alive, links, part = swarm.alive, scratch.links, scratch.leader
     for i in range(world.agents):
-        scratch.a[i] = clustering_of(scratch.links, swarm.alive, world.agents, i)
-    add_graph(tally, step, world, swarm, scratch)
-
-
-@kernel
-def clustering_of(links, alive, agents, i):
-    """Clustering of agent i."""
-    heard = 0
-    linked_pairs = 0
-    for one in range(agents):
-        if linked(links, one, i) and alive[one] > 0.0:
-            heard += 1
-            for other in range(one):
-                both = linked(links, other, i) and alive[other] > 0.0
-                linked_pairs += both and (linked(links, one, other) or linked(links, other, one))
-    return 2.0 * linked_pairs / (heard * (heard - 1)) if heard > 1 else 0.0
-
-
-@kernel
-def add_graph(tally, step, world, swarm, scratch):
-    """Count the components, and add up the clustering of all agents, which is in scratch.a."""
-    agents, alive, links, part = world.agents, swarm.alive, scratch.links, scratch.leader
-    for i in range(agents):
         part[i] = i
-    for i in range(agents):
-        for j in range(agents):
-            if linked(links, j, i) and alive[j] > 0.0:
-                _join(part, i, j)
+    if links.silent.size > 0:
+        clustering = cluster_lists(links.lists, alive, part, world.agents)
+    else:
+        clustering = cluster_all(links, alive, part, world.agents)
+    add_graph(tally, step.batch, alive, part, clustering, world.agents)
+
+
+@kernel
+def add_graph(tally, batch, alive, part, clustering, agents):
+    """Count the components, of which part[i] names one member, and add the clustering of agents, which is summed."""
     components = 0
     active = 0
-    total = 0.0
     for i in range(agents):
         there = alive[i] > 0.0
         components += there and part[i] == i
         active += there
-        total += scratch.a[i]
-    tally.graphs[step.batch] += 1.0
-    tally.components[step.batch] += components
-    tally.clustering[step.batch] += total / max(active, 1)
+    tally.graphs[batch] += 1.0
+    tally.components[batch] += components
+    tally.clustering[batch] += clustering / max(active, 1)
 
 
 @kernel
-def _join(part, one, other):
+def cluster_all(links, alive, part, agents):
+    """Return the clustering of agents, summed, and join the parts of those linked. Whom each hears is a set of bits."""
+    words = (agents + 31) // 32
+    hears = np.zeros((agents, words), np.int64)
+    linked_either_way = np.zeros((agents, words), np.int64)
+    for i in range(agents):
+        for j in range(agents):
+            if within(links, j, i) and alive[j] > 0.0:
+                hears[i, j >> 5] |= 1 << (j & 31)
+                linked_either_way[i, j >> 5] |= 1 << (j & 31)
+                linked_either_way[j, i >> 5] |= 1 << (i & 31)
+                join(part, i, j)
+    total = 0.0
+    for i in range(agents):
+        count = 0
+        ends = 0
+        for j in range(agents):
+            if (hears[i, j >> 5] >> (j & 31)) & 1:
+                count += 1
+                for word in range(words):
+                    ends += bits_of(hears[i, word] & linked_either_way[j, word])
+        total += ends / (count * (count - 1)) if count > 1 else 0.0
+    return total
+
+
+@kernel
+def cluster_lists(lists, alive, part, agents):
+    """The same, where lists say who hears whom."""
+    cells, slots = lists.cells, lists.slots
+    most = slots.shape[1]
+    among = np.full(agents, -1)  # where among those whom p hears, as p * most + number
+    pairs = np.zeros((most, (most + 31) // 32), np.int64)  # of these, which are linked, as bits
+    clustering = np.zeros(agents)
+    for p in range(agents):
+        block, lane = p // LANES, p % LANES
+        count = 0
+        for slot in range(lists.heard[block, lane]):
+            q = slots[block, slot, lane]
+            if alive[cells.order[q]] > 0.0:
+                join(part, cells.order[p], cells.order[q])
+                among[q] = p * most + count
+                pairs[count] = 0
+                count += 1
+        for slot in range(lists.heard[block, lane]):
+            q = slots[block, slot, lane]
+            one = among[q] - p * most
+            if one >= 0:
+                for other_slot in range(lists.heard[q // LANES, q % LANES]):
+                    other = among[slots[q // LANES, other_slot, q % LANES]] - p * most
+                    if other >= 0:
+                        pairs[one, other >> 5] |= 1 << (other & 31)
+                        pairs[other, one >> 5] |= 1 << (one & 31)
+        ends = 0
+        for one in range(count):
+            for word in range(pairs.shape[1]):
+                ends += bits_of(pairs[one, word])
+        clustering[cells.order[p]] = ends / (count * (count - 1)) if count > 1 else 0.0
+    total = 0.0
+    for i in range(agents):  # in this order for the last bit
+        total += clustering[i]
+    return total
+
+
+@kernel
+def bits_of(word):
+    """How many of the lower 32 bits of a word are set."""
+    word = word - ((word >> 1) & 0x55555555)
+    word = (word & 0x33333333) + ((word >> 2) & 0x33333333)
+    return ((((word + (word >> 4)) & 0x0F0F0F0F) * 0x01010101) & 0xFFFFFFFF) >> 24
+
+
+@kernel
+def join(part, one, other):
     """Unite the parts of two agents under the lower root."""
     while part[one] != one:
         one = part[one]

@@ -125,20 +125,25 @@ class TrajectoryWriter:
             if name not in self._files:
                 self._files[name] = (self._folder / f"{name}.npy").open("wb")
                 self._sums[name] = hashlib.sha256()
-                header = {
-                    "descr": np.lib.format.dtype_to_descr(values.dtype),
-                    "fortran_order": False,
-                    "shape": (self._frames, *values.shape[1:]),
-                }
-                head = io.BytesIO()
-                np.lib.format.write_array_header_1_0(head, header)
-                self._write(name, head.getvalue())
+                self._write(name, _head(values.dtype, (self._frames, *values.shape[1:])))
             self._write(name, np.ascontiguousarray(values).tobytes())
 
     def close(self) -> None:
         """Flush and close the files."""
         for file in self._files.values():
             file.close()
+
+    def cut(self, frames: int) -> None:
+        """Let the closed files hold fewer frames than were announced: these, of those that were written."""
+        for name in self._files:
+            with (self._folder / f"{name}.npy").open("r+b") as file:
+                np.lib.format.read_magic(file)
+                shape, _, dtype = np.lib.format.read_array_header_1_0(file)
+                file.truncate(file.tell() + frames * int(np.prod(shape[1:])) * dtype.itemsize)
+                file.seek(0)
+                file.write(_head(dtype, (frames, *shape[1:])))
+                file.seek(0)
+                self._sums[name] = hashlib.file_digest(file, "sha256")
 
     def sums(self) -> dict[str, str]:
         """SHA-256 of every file, by the name of its array."""
@@ -147,3 +152,11 @@ class TrajectoryWriter:
     def _write(self, name: str, content: bytes) -> None:
         self._files[name].write(content)
         self._sums[name].update(content)
+
+
+def _head(dtype: np.dtype[Any], shape: tuple[int, ...]) -> bytes:
+    """The header of an .npy file; it has the same length whatever the number of frames."""
+    head = io.BytesIO()
+    described = {"descr": np.lib.format.dtype_to_descr(dtype), "fortran_order": False, "shape": shape}
+    np.lib.format.write_array_header_1_0(head, described)
+    return head.getvalue()

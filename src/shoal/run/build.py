@@ -8,7 +8,7 @@ import numpy as np
 
 from shoal.core.agents import aligned_zeros, new_swarm
 from shoal.core.declared import Declared
-from shoal.core.errors import PluginError
+from shoal.core.errors import PluginError, ScenarioError
 from shoal.engine.stage import new_nature
 from shoal.scenario.battery import drag_of
 from shoal.scenario.briefing import degrees, shares
@@ -22,6 +22,7 @@ from shoal.world.disturbances.catalogue import KINDS as DISTURBANCES
 from shoal.world.disturbances.catalogue import NUMBERS as DISTURBANCE_NUMBERS
 from shoal.world.disturbances.contract import Nature
 from shoal.world.radio import new_radio
+from shoal.world.reception import collecting
 from shoal.world.sea.field import STILL
 from shoal.world.sea.sea import Leeway, Sea
 from shoal.world.targets.catalogue import KINDS, NUMBERS, TARGET_FIELDS
@@ -53,8 +54,35 @@ def build_world(scenario: Scenario, sea: Sea) -> World:
         windy=sea.wind.kind != STILL and any(fleet.windage for fleet in fleets),
         coastal=sea.shore.distance.size > 1,
         ordered=False,
+        listed=0,
         target_radius=min(target.radius for target in scenario.targets),
     )
+
+
+FEWEST_LISTED = 300  # agents from which on lists of neighbors are faster than the distances of all pairs
+MOST_MEASURED = 10_000  # agents of which the distances of all pairs are kept: 800 MB
+
+
+def most_listed(scenario: Scenario, world: World, swarm: Any, radio: Any) -> int:
+    """Return the most neighbors that lists must hold; 0 where the distances of all pairs say who hears whom.
+
+    Raises
+    ------
+    ScenarioError : there are more agents than distances are kept of, and something needs them
+    """
+    most = int(max(swarm.neighbors[: scenario.agents].max(), radio.most[: scenario.agents].max()))
+    network = scenario.network
+    needed = [
+        ("motion.update_order", "is sequential", world.sequential),
+        ("sea", "has land or a limit", world.coastal),
+        ("network", "keeps or relays reports", network.collects),
+        ("network.neighbors", f"is {most}, more than a quarter of all", 4 * most > scenario.agents),
+    ]
+    for where, what, needs in needed:
+        if needs and scenario.agents > MOST_MEASURED:
+            problem = f"{what}, with {scenario.agents:,} agents"
+            raise ScenarioError(where, problem, f"that works with up to {MOST_MEASURED:,} agents; change either")
+    return 0 if scenario.agents < FEWEST_LISTED or any(needs for *_, needs in needed) else most
 
 
 def _is_mortal(scenario: Scenario) -> bool:
@@ -126,13 +154,19 @@ def build_radio(scenario: Scenario, crew: Crew, world: World, lanes: int) -> Any
     radio = new_radio(
         lanes,
         crew.told,
-        limited=network.range is not None or network.delay > 0 or scenario.report_steps > 1 or world.mortal,
+        limited=network.range is not None
+        or network.delay > 0
+        or scenario.report_steps > 1
+        or world.mortal
+        or network.collects,
         reach=network.range or math.inf,
         delay=network.delay,
         loss=network.loss,
         interval=scenario.report_steps,
         degree=(adaptive.fewest, adaptive.most, adaptive.patience) if adaptive else None,
     )
+    if network.collects:
+        radio = collecting(radio, scenario.agents, network.max_age, network.hops)
     everybody = np.repeat([strategy.hears_all for strategy in crew.strategies], scenario.counts)
     for limit in (radio.fewest, radio.most):
         limit[: scenario.agents][everybody] = scenario.agents - 1

@@ -93,10 +93,12 @@ def _carry_memory(old: Simulation, new: Simulation, now: State, here: Lanes, the
 
 
 def _carry_air(old: Simulation, new: Simulation, now: State, here: Lanes, there: Lanes) -> None:
-    """Reports still in flight; where there are none, as if all had always said what they say now."""
-    for name, said in now.air._asdict().items():
+    """Reports in flight, and whose each has; where there are none, as if all had said this before, and nobody heard."""
+    same = all(getattr(old.radio, each) == getattr(new.radio, each) for each in ("delay", "interval", "max_age"))
+    spoken = {name: said for name, said in now.air._asdict().items() if name != "heard"}
+    for name, said in spoken.items():
         said[:] = getattr(now.swarm, {"x": "fix_x", "y": "fix_y"}.get(name, name))
-        if (old.radio.delay, old.radio.interval) == (new.radio.delay, new.radio.interval) and (
-            name != "told" or old.crew.told == new.crew.told
-        ):
+        if same and (name != "told" or old.crew.told == new.crew.told):
             said[:, here] = getattr(old.moment.air, name)[:, there]
+    if same and now.air.heard.size:
+        now.air.heard[np.ix_(here, here)] = old.moment.air.heard[np.ix_(there, there)]

@@ -1,8 +1,12 @@
 """The engine compiled for a strategy: whether it is, and is kept."""
 
+from contextlib import suppress
 from pathlib import Path
 
+from shoal.compiler.interrupts import interrupts_wait as interrupts_wait
 from shoal.compiler.kernel import cache_folder, why_uncached
+from shoal.engine.ahead import cores as cores
+from shoal.engine.ahead import how_far as how_far
 from shoal.scenario.crew import Crew, crew_of
 from shoal.scenario.schema import Scenario
 
@@ -11,8 +15,8 @@ BUOYS = "buoys-"  # what the engine is compiled for beside the strategies of sim
 
 def needs_compiling(scenario: Scenario, whose: str = "") -> bool:
     """Whether the first step will compile the engine for this strategy, or its BUOYS: once per version."""
-    crew = crew_of(scenario)
-    return not crew.builtin or not _compiled_mark(whose + crew.name).exists()
+    mark = _compiled_mark(crew_of(scenario), whose)
+    return mark is None or not mark.exists()
 
 
 def engine_is_compiled() -> bool:
@@ -22,21 +26,21 @@ def engine_is_compiled() -> bool:
 
 def why_not_kept(crew: Crew) -> str | None:
     """Why the compiled engine is not kept for the next process; None if it is."""
-    if not crew.builtin:
-        return "a file of yours is compiled every time"
+    if crew.made_of is None:
+        return f"every time: what {crew.source} is made of cannot be told from its text and its numbers"
     why = why_uncached()
     return why and f"every time: {why}"
 
 
 def mark_compiled(scenario: Scenario, whose: str = "") -> None:
     """Remember that this strategy's engine, or that of its BUOYS, is in the cache."""
-    crew = crew_of(scenario)
-    if crew.builtin:
-        try:
-            _compiled_mark(whose + crew.name).touch()
-        except OSError:
-            return  # only a message depends on it
+    mark = _compiled_mark(crew_of(scenario), whose)
+    if mark is not None:
+        with suppress(OSError):  # only a message depends on it
+            mark.touch()
 
 
-def _compiled_mark(name: str) -> Path:
-    return cache_folder() / f"compiled-{name}"
+def _compiled_mark(crew: Crew, whose: str) -> Path | None:
+    if crew.made_of is None:
+        return None
+    return cache_folder() / "-".join(["compiled", whose + crew.name, *([crew.made_of] if crew.made_of else [])])

@@ -6,10 +6,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
+from shoal.compiler.kernel import compile_for
 from shoal.compiler.late import compiles
 from shoal.compiler.placed import Placed
-from shoal.core.agents import NEVER, Memories, as_records
+from shoal.core.agents import NEVER, KeptMemories, ListedMemories, Memories, as_records
 from shoal.core.errors import ScenarioError, StrategyError
 from shoal.core.plugin_errors import plugin_errors
 from shoal.core.text import plain
@@ -20,7 +22,7 @@ from shoal.engine.stage import Frames, Run, Stage, new_frames, new_scratch
 from shoal.metrics.tally import never_counted, new_tally
 from shoal.record.saved_state import read_state, write_state
 from shoal.record.trajectory import Trajectory
-from shoal.run.build import build_nature, build_radio, build_swarm, build_targets, build_world, losses_of
+from shoal.run.build import build_nature, build_radio, build_swarm, build_targets, build_world, losses_of, most_listed
 from shoal.run.facts import roster_of
 from shoal.run.sea import build_sea
 from shoal.run.state import State, arrays_of, read_only, state_of
@@ -88,12 +90,15 @@ class Simulation:
         self._radio = build_radio(scenario, self.crew, self.world, self._swarm.x.size)
         self._targets, self.tracks = build_targets(scenario, tracks)
         self._nature = build_nature(scenario, self._swarm.x.size)
-        memories = Memories(
+        network = scenario.network
+        self.world = self.world._replace(listed=most_listed(scenario, self.world, self._swarm, self._radio))
+        kind = ListedMemories if self.world.listed else KeptMemories if network.max_age else Memories
+        memories = kind(
             memory=as_records(self._swarm.memory, self.memory_fields),
             told=as_records(self._swarm.told, self.crew.told),
             arrived=as_records(self._radio.told, self.crew.told),
         )
-        plain = Memories(*(np.asarray(each) for each in memories))
+        plain = type(memories)(*(np.asarray(each) for each in memories))
         self._memories = plain if compiles() else memories  # numba takes recarrays, too, but slowly
         batches = min(BATCHES, scenario.steps)
         self._tally = new_tally(scenario.steps, batches, len(scenario.fleets), scenario.agents, len(scenario.targets))
@@ -101,10 +106,10 @@ class Simulation:
         self.swarm, self.targets, self.memories = read_only(self._swarm), read_only(self._targets), read_only(memories)
         self.moment: State = read_only(self._state)
         self.tally = self.moment.tally
-        self._scratch = new_scratch(self.world, self._swarm.x.size, self.crew.sums, self.crew.ranked)
+        self._scratch = self._new_scratch()
         self._begin, self._rollout = self.crew.compiled(begin_run, rollout)
         self._which = Run(np.uint64(scenario.seed), run, scenario.steps)
-        self._phases = addresses(self.world)
+        self._phases = addresses(self.world, collecting=network.collects, first=self._compile)
         self._placed = Placed(self._stage(self._new_frames(0)))
         self._looking: Placed | None = None  # until somebody looks
         starts = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
@@ -181,7 +186,7 @@ class Simulation:
         Its links are those of the coming step. In the sequential order, in which agents hear what others have just
         done, they are those of agents that all decide first.
         """
-        self._keep_frames()
+        self._keep_frames(looking=True)
         self._looking = self._in_place(self._looking or Placed(self._stage(self._new_frames(1))))
         _look(self._looking.address, self.number)
         seen = Frames(*(array.copy() for array in self._looking.stage.frames))
@@ -240,10 +245,25 @@ class Simulation:
         """Settings of the radio, and what is on the air; read-only."""
         return read_only(self._radio)
 
-    def _keep_frames(self) -> None:
+    @property
+    def reached(self) -> npt.NDArray[np.bool_]:
+        """Whose report (row) reaches whom (column) in the step looked at or done last, (N, N), relays included.
+
+        Only where radios relay or keep reports is it known; what agents have from before is not part of it.
+        """
+        return np.asarray(self._scratch.hops[:, : self.scenario.agents] > 0)
+
+    def _compile(self) -> None:
+        """Compile what the strategy is part of, or load it from the cache."""
+        with plugin_errors(), self.crew.naming_errors():
+            compile_for(self._begin, 0, self._memories, self.crew.params)
+            compile_for(self._rollout, 0, self._memories, self.crew.params, 0, 0, 0, 0)
+
+    def _keep_frames(self, looking: bool = False) -> None:
         """Compile the phases that frames need, which runs without frames do without."""
-        if not self._phases.record_frame:
-            self._phases = addresses(self.world, frames=True)
+        if not (self._phases.look_at_links if looking else self._phases.record_frame):
+            looking = looking or bool(self._phases.look_at_links)
+            self._phases = addresses(self.world, True, looking, self.scenario.network.collects)
 
     def _settle(self) -> None:
         """Make the state true after a change; where everybody is always there, the engine leaves a lot out."""
@@ -252,6 +272,9 @@ class Simulation:
         if not self.world.mortal and (self._swarm.leaves < NEVER).any():
             self.world = self.world._replace(mortal=True)
             self._radio = self._radio._replace(limited=True)
+        if 0 < self.world.listed < (most := int(self._swarm.neighbors[: self.scenario.agents].max())):
+            self.world = self.world._replace(listed=most)
+            self._scratch = self._new_scratch()
         self.advance(0)
 
     def _leg(self, last: int, every: int | None, tail: int) -> Trajectory | None:
@@ -334,6 +357,10 @@ class Simulation:
             self._phases,
             self._which,
         )
+
+    def _new_scratch(self) -> Any:
+        collects = self.scenario.network.collects
+        return new_scratch(self.world, self._swarm.x.size, self.crew.sums, self.crew.ranked, collects)
 
     def _new_frames(self, count: int) -> Frames:
         return new_frames(count, self.scenario.agents, self._targets.size, self._swarm.memory.shape[1])

@@ -11,8 +11,8 @@ from shoal.scenario.schema import Scenario
 
 
 def assumptions(scenario: Scenario) -> list[str]:
-    """Sentences about a report interval that was rounded, a radio beyond its duty cycle, and drag that is assumed."""
-    return [*_interval(scenario), *_duty(scenario), *_drag(scenario)]
+    """Sentences about an interval that was rounded, rules and radios that do not fit, and drag that is assumed."""
+    return [*_interval(scenario), *_collected(scenario), *_duty(scenario), *_drag(scenario)]
 
 
 def report_size(scenario: Scenario) -> int:
@@ -31,6 +31,20 @@ def _interval(scenario: Scenario) -> list[str]:
     if asked is None or abs(asked - real) <= 1e-6 * asked:
         return []
     return [f"network.interval is {asked:g} s, no whole number of steps: agents report every {real:g} s"]
+
+
+def _collected(scenario: Scenario) -> list[str]:
+    """What is kept or relayed in vain, or on top of what is counted."""
+    network, interval, notes = scenario.network, scenario.report_steps, []
+    if 0 < network.max_age < interval:
+        steps = f"{network.max_age} step{'s' if network.max_age > 1 else ''}"
+        notes.append(f"network.max_age is {steps}, but reports come every {interval}: no older one is gone by")
+    limited = network.range or network.loss or scenario.disturbances or (scenario.sea and scenario.sea.coast)
+    if network.hops > 1 and not limited:
+        notes.append(f"network.hops is {network.hops}, but all hear each other directly: give network.range")
+    elif network.hops > 1 and network.radio:
+        notes.append(f"airtime and duty cycle of {network.radio} are of an agent's own reports, without what it relays")
+    return notes
 
 
 def _duty(scenario: Scenario) -> list[str]:

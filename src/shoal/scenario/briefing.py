@@ -26,7 +26,11 @@ def briefing(scenario: Source, id: int) -> Briefing:
     ScenarioError : there is no such agent
     SeaError : a file of its sea cannot be used
     """
-    scenario = load(scenario)
+    return briefing_in(load(scenario), id)
+
+
+def briefing_in(scenario: Scenario, id: int) -> Briefing:
+    """As `briefing`, of a scenario that is loaded."""
     fleet = scenario.fleets[fleet_of(scenario, id)]
     ends = shares(scenario)
     opened = open_sea(scenario)

@@ -1,18 +1,21 @@
 """Which strategies a scenario's fleets follow, as the engine takes them: one, or a team of several."""
 
 from collections.abc import Callable
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 from shoal.core.errors import ScenarioError
 from shoal.scenario.schema import Scenario
 from shoal.scenario.strategy_choice import StrategyChoice
 from shoal.strategies import Strategy
-from shoal.strategies.compiled import compiled_for
+from shoal.strategies.compiled import compiled_for, made_of
 from shoal.strategies.errors import strategy_errors
 from shoal.strategies.puppet import PUPPET
 from shoal.strategies.team import MOST, depth_of, team
+
+_NO_ERRORS = nullcontext()
 
 
 @dataclass(frozen=True)
@@ -32,10 +35,15 @@ class Crew:
     memory: tuple[str, ...]
     told: tuple[str, ...]
 
-    @property
+    @cached_property
     def builtin(self) -> bool:
-        """Whether all of it comes with Shoal, so that compiled code can be cached."""
+        """Whether all of it comes with Shoal."""
         return all(each.builtin for each in self.strategies)
+
+    @cached_property
+    def made_of(self) -> str | None:
+        """What names its compiled code beside the strategies: empty if all are ours, None if it cannot be kept."""
+        return made_of(self.strategies)
 
     @property
     def sums(self) -> int:
@@ -70,7 +78,7 @@ class Crew:
 
     def naming_errors(self) -> AbstractContextManager[None]:
         """A context in which what a user's strategy gets wrong becomes one StrategyError that names its line."""
-        return strategy_errors(self.strategies)
+        return _NO_ERRORS if self.builtin else strategy_errors(self.strategies)
 
 
 def crew_of(scenario: Scenario) -> Crew:

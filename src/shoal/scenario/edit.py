@@ -1,5 +1,6 @@
 """Changes to a scenario's raw table, before it is validated: what --fast, --set, sweeps and `with_` do."""
 
+import math
 import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -33,9 +34,14 @@ def apply(table: Table, changes: Mapping[str, Any]) -> Table:
     ScenarioError : a path that does not exist, or a shorthand that this scenario has no place for
     """
     changed: Table = plain(table)
+    kept = _is_density_kept(changes)
     for name, value in sorted(changes.items(), key=_rank):
         key = name.replace("-", "_")
-        if key in SHORTHANDS:
+        if key == "density":
+            continue
+        if key == "agents" and kept:
+            _set_agents_and_sides(changed, plain(value))
+        elif key in SHORTHANDS:
             SHORTHANDS[key](changed, plain(value))
         elif "." in name:
             set_path(changed, name, plain(value))
@@ -59,7 +65,7 @@ def check_words(changes: Mapping[str, Any], also: Iterable[str] = ()) -> None:
     """
     for name, value in changes.items():
         key = name.replace("-", "_")
-        known = [*SHORTHANDS, *TRACK, *Scenario.model_fields, *also]
+        known = [*SHORTHANDS, "density", *TRACK, *Scenario.model_fields, *also]
         if "." not in name and key not in known:
             hint = did_you_mean(key, known).rstrip() or f"there are: {', '.join(known)}; or a path such as network.loss"
             raise ScenarioError(name, f"is not a field of a scenario (value {quoted(value)})", hint)
@@ -205,6 +211,30 @@ def _set_agents(table: Table, value: Any) -> None:
         fleet["count"] = count
     table["fleets"] = [fleet for fleet in fleets if fleet["count"] > 0]
     _lower_degrees(table, value)
+
+
+def _is_density_kept(changes: Mapping[str, Any]) -> bool:
+    """Whether the arena grows with the number of agents."""
+    if "density" not in changes:
+        return False
+    if changes["density"] != "keep":
+        raise ScenarioError("density", f"is {quoted(changes['density'])}", "write keep, or leave it out")
+    if "agents" not in changes:
+        raise ScenarioError("density", "is kept where there are more agents or fewer", "say how many: agents")
+    return True
+
+
+def _set_agents_and_sides(table: Table, value: Any) -> None:
+    """So many agents in all, in an arena whose sides grow with the root of their number; strategies' lengths stay."""
+    before = sum(fleet["count"] for fleet in _fleets(table, "density"))
+    area = table.get("area")
+    if not isinstance(area, dict) or area.get("origin") is not None:
+        fix = "leave out density, or the origin of the area"
+        raise ScenarioError("density", "an arena at a place on Earth has its size", fix)
+    _set_agents(table, value)
+    for side in ("width", "height"):
+        with suppress(ValueError, TypeError):  # a side that is none is told of when the scenario is read
+            area[side] = float(Unit("m").parse(area.get(side))) * math.sqrt(value / before)
 
 
 def _lower_degrees(table: Table, agents: int) -> None:

@@ -21,9 +21,10 @@ from shoal.scenario.battery import Battery
 from shoal.scenario.commands import Command
 from shoal.scenario.disturbances import DISTURBANCES
 from shoal.scenario.frozen import MOST_ENTRIES, plain
+from shoal.scenario.network import AdaptiveDegree, Network
 from shoal.scenario.presence import Join, Loss
 from shoal.scenario.recorded import RecordedScenario, RecordedStrategy
-from shoal.scenario.schema import AdaptiveDegree, Area, Fleet, Motion, Network, Scenario
+from shoal.scenario.schema import Area, Fleet, Motion, Scenario
 from shoal.scenario.sea import FILES, FLOWS, TAGS, Sea
 from shoal.scenario.strategy_choice import StrategyChoice, StrategyParamsError, following, params_model
 from shoal.scenario.targets import TARGETS

@@ -6,7 +6,7 @@ from pydantic import Field, model_validator
 
 from shoal.scenario.frozen import Count, Frozen
 
-MOST_AGENTS = 10_000  # the engine keeps all squared distances: 800 MB
+MOST_AGENTS = 1_000_000
 
 
 class Loss(Frozen):

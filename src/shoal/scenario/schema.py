@@ -25,8 +25,8 @@ from shoal.scenario.commands import Command
 from shoal.scenario.disturbances import Disturbance
 from shoal.scenario.durations import Steps, with_whole_steps
 from shoal.scenario.frozen import MOST_ENTRIES, Chance, Count, Frozen, Name, NotNegative, Positive
+from shoal.scenario.network import Degree, Network
 from shoal.scenario.presence import MOST_AGENTS, Join, Loss
-from shoal.scenario.radios import RADIOS
 from shoal.scenario.scales import scales_of
 from shoal.scenario.sea import Sea
 from shoal.scenario.strategy_choice import StrategyChoice
@@ -36,19 +36,10 @@ from shoal.scenario.windage import Windage
 ARENA_UNITS = 20.0  # the paper's arena measures 20 units; one is the length its figures are in
 
 
-Degree = Count | Literal["all"]
-
-
 def _sentence(text: str) -> str:
     if len(text) > 2000 or any(hides(each) for each in text if each not in "\n\t"):
         raise ValueError(f"{quoted(text)} is not a sentence; write 2000 characters at most, none of them a control one")
     return text
-
-
-def _radio(name: str) -> str:
-    if name not in RADIOS:
-        raise ValueError(f"{quoted(name)} is no radio; {did_you_mean(name, RADIOS)}there are: {', '.join(RADIOS)}")
-    return name
 
 
 class Area(Frozen):
@@ -135,40 +126,6 @@ class Fleet(Frozen):
     def _battery_goes_with_it(self) -> Self:
         check_battery(self)
         return self
-
-
-class AdaptiveDegree(Frozen):
-    """k follows the contact: fewest + (most - fewest) x share of recent time with somebody on target in hearing."""
-
-    fewest: Count = Field(default=10, description="k of an agent that never hears of a target")
-    most: Count = Field(default=25, description="k of an agent that always does")
-    patience: Annotated[Seconds, Positive] = Field(default=10.0, description="how long `recent` is [s]")
-
-    @model_validator(mode="after")
-    def _in_order(self) -> Self:
-        if self.fewest > self.most:
-            raise ValueError(f"fewest is {self.fewest}, more than most, {self.most}; swap them")
-        return self
-
-
-class Network(Frozen):
-    """Which agents hear which, and what gets lost."""
-
-    neighbors: Degree = Field(description='k: every agent hears its k nearest others, or "all"')
-    range: Annotated[Meters, Positive] | None = Field(
-        default=None, description="nobody is heard from farther away [m]; default: any distance"
-    )
-    loss: Chance = Field(default=0.0, description="chance that a neighbor's report of a step is not heard")
-    delay: Annotated[int, Field(strict=True, ge=0, le=1000)] = Field(
-        default=0, description="steps that a report takes; positions in it are as old"
-    )
-    interval: Annotated[Seconds, Positive] | None = Field(
-        default=None, description="time from one report of an agent to its next [s]; default: every step"
-    )
-    radio: Annotated[str, AfterValidator(_radio)] | None = Field(
-        default=None, description="a kind of radio, whose airtime and duty cycle are told; default: not told"
-    )
-    adaptive: AdaptiveDegree | None = Field(default=None, description="k adapts in time; neighbors is where it starts")
 
 
 class Motion(Frozen):
@@ -380,10 +337,20 @@ class Scenario(Frozen):
         return self
 
     @model_validator(mode="after")
+    def _reports_wait_for_nobody(self) -> Self:
+        if self.network.collects and self.motion.update_order == "sequential":
+            name = "max_age" if self.network.max_age else "hops"
+            raise ValueError(
+                f"network.{name} is {getattr(self.network, name)}, but motion.update_order is sequential: agents hear "
+                f"what others have just done, which nobody keeps or relays; write synchronous, or leave {name} out"
+            )
+        return self
+
+    @model_validator(mode="after")
     def _two_agents(self) -> Self:
         if not 2 <= self.agents <= MOST_AGENTS:
             raise ValueError(
-                f"the fleets have {self.agents} agents together; a swarm has 2 to {MOST_AGENTS}; change count"
+                f"the fleets have {self.agents} agents together; a swarm has 2 to {MOST_AGENTS:,}; change count"
             )
         return self
 

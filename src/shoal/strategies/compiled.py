@@ -1,12 +1,13 @@
-"""Entry kernels compiled for some strategies: kept on disk for our own, whose sources the cache knows, or made anew."""
+"""Entry kernels compiled for some strategies, and kept on disk: a user's by a hash of all that they are made of."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from shoal.compiler.kernel import uncached
+from shoal.compiler.fingerprint import fingerprint
+from shoal.compiler.kernel import twin
 from shoal.strategies.contract import Strategy
 
-_ANEW: dict[Any, tuple[Callable[..., Any], ...]] = {}
+_TWINS: dict[Any, tuple[Callable[..., Any], ...]] = {}
 
 
 def compiled_for(strategies: Sequence[Strategy], *entries: Callable[..., Any]) -> tuple[Callable[..., Any], ...]:
@@ -14,6 +15,19 @@ def compiled_for(strategies: Sequence[Strategy], *entries: Callable[..., Any]) -
     if all(each.builtin for each in strategies):
         return entries
     kind = (*entries, *(each.params for each in strategies))
-    if kind not in _ANEW:
-        _ANEW[kind] = tuple(map(uncached, entries))
-    return _ANEW[kind]
+    if kind not in _TWINS:
+        origin = made_of(strategies)
+        _TWINS[kind] = tuple(twin(each, origin) for each in entries)
+    return _TWINS[kind]
+
+
+def made_of(strategies: Sequence[Strategy]) -> str | None:
+    """A hash of what the compiler will see of those that are a user's; None if nobody can say, empty if none is."""
+    own = [each for each in strategies if not each.builtin]
+    functions = [
+        function
+        for each in own
+        for function in (each.begin, each.leads, each.priority, each.influence, each.decide, each.params)
+    ]
+    facts = [(each.name, each.memory, each.told, each.sums._fields, each.ranked, each.informed) for each in own]
+    return fingerprint(functions, *facts) if own else ""

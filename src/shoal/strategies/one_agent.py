@@ -1,4 +1,4 @@
-"""One agent alone: it listens to an inbox and decides, compiled from the functions that the engine is compiled from."""
+"""Some agents alone: they listen and decide, compiled from the functions that the engine is compiled from."""
 
 from typing import Any, NamedTuple
 
@@ -11,16 +11,22 @@ from shoal.strategies import contract
 
 
 class Inbox(NamedTuple):
-    """n reports in the order of ids. The row behind them is what the agent itself tells.
+    """m reports in the order of ids. The rows behind them are what n listeners tell themselves.
 
-    id, rank : (n,) and (n, 1); numbers : (n, 5) x, y, vx, vy, time; on_target : (n,); told : (n + 1,)
+    id : (m,); numbers : (m, 5) x, y, vx, vy, time; on_target : (m,); told : (m + n,)
     """
 
     id: Any
     numbers: Any
     on_target: Any
-    rank: Any
     told: Any
+
+
+class Room(NamedTuple):
+    """Where decisions are worked out: sums (S, 1) over neighbors, and what is wanted (n, 2) [m/s]."""
+
+    sums: Any
+    wants: Any
 
 
 @entry_kernel
@@ -30,21 +36,79 @@ def key_of_run(seed, run):
 
 
 @entry_kernel
-def begin_one(me, memory, params, key):
-    """Set up the memory (1,) of one agent; `key` is that of the run."""
-    contract.begin(me, memory[0], params, split(split(key, START_STEP), me.id))
+def begin_one(place, selves, memory, params, key):
+    """Set up the memory of the agent at a place; `key` is that of the run."""
+    me = own_of(selves[place], 0)
+    contract.begin(me, memory[place], params, split(split(key, START_STEP), me.id))
 
 
 @entry_kernel
-def decide_one(me, inbox, sums, memory, params, key, step):
-    """The velocity that one agent wants; sums (S, 1) are zero and have room for those of its strategy."""
+def decide_several(places, selves, inbox, near, memory, params, when, room):
+    """What n agents want in a step, each on what it hears.
+
+    places : (n,) where each is in selves and memory
+    selves : (agents, 21) what each knows of itself, see `own_of`
+    near : (n, k, 2) its neighbors: rows of the inbox, ascending, and how many of them are nearer; -1: no more
+    when : key of the run, and step
+    """
+    for n in range(places.size):
+        me = own_of(selves[places[n]], when[1])
+        vx, vy = _decide(me, inbox, near[n], memory, (places[n], inbox.id.size + n), params, when, room.sums)
+        room.wants[n, 0] = vx
+        room.wants[n, 1] = vy
+
+
+@kernel
+def own_of(numbers, step):
+    """An agent as it knows itself, from (21,) numbers: its reading, id, make, and briefing."""
+    max_speed, time_step = numbers[9], numbers[10]
+    briefing = Briefing(
+        int(numbers[12]),
+        numbers[13],
+        numbers[14],
+        numbers[15],
+        numbers[16],
+        numbers[17],
+        numbers[18] > 0.0,
+        numbers[19],
+        numbers[20],
+    )
+    truth = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return Own(
+        int(numbers[8]),
+        numbers[0],
+        numbers[1],
+        numbers[2],
+        numbers[3],
+        numbers[4] > 0.0,
+        max_speed,
+        time_step,
+        step * time_step,
+        int(numbers[11]),
+        briefing,
+        truth,
+        numbers[5],
+        numbers[6],
+        numbers[7] > 0.0,
+    )
+
+
+@kernel
+def _decide(me, inbox, near, memory, rows, params, when, sums):
+    """The velocity that an agent wants; `rows` : its own of the memory, and of what the inbox tells."""
     listener = _listener(me)
-    count = inbox.id.size
     leader = -1
     lowest = np.inf
-    for j in range(count):
+    count = 0
+    for s in range(sums.shape[0]):
+        sums[s, 0] = 0.0
+    for n in range(near.shape[0]):
+        j = near[n, 0]
+        if j < 0:
+            break
+        count += 1
         x, y, vx, vy = inbox.numbers[j, 0], inbox.numbers[j, 1], inbox.numbers[j, 2], inbox.numbers[j, 3]
-        rank = contract.rank_of(inbox.rank, j, 0, params)
+        rank = contract.rank_of(near, n, 1, params)
         other = Report(inbox.id[j], x, y, vx, vy, inbox.on_target[j], inbox.told[j], inbox.numbers[j, 4], rank)
         if contract.has_influence(params):
             contract.add(sums, 0, contract.influence(listener, other, params), True)
@@ -63,8 +127,9 @@ def decide_one(me, inbox, sums, memory, params, key, step):
             inbox.numbers[leader, 3],
         )
         on_target = inbox.on_target[leader]
-    heard = Heard(found, x, y, vx, vy, on_target, 0.0, 0.0, count, inbox.told[leader if found else count], sums[:, 0])
-    return contract.decide(me, heard, memory[0], params, split(split(key, step), me.id))
+    told = inbox.told[leader if found else rows[1]]
+    heard = Heard(found, x, y, vx, vy, on_target, 0.0, 0.0, count, told, sums[:, 0])
+    return contract.decide(me, heard, memory[rows[0]], params, split(split(when[0], when[1]), me.id))
 
 
 @kernel

@@ -17,6 +17,7 @@ class World(NamedTuple):
     inexact : agents do not know quite where they are; powered : they have batteries
     flowing : there are currents or wind; windy : wind, and agents that it moves
     coastal : there is land, or a limit to where agents may go; ordered : agents are under orders
+    listed : the most neighbors that an agent has where there are many, see world/lists.py; 0 elsewhere
     target_radius : of the smallest target
     """
 
@@ -39,4 +40,5 @@ class World(NamedTuple):
     windy: bool
     coastal: bool
     ordered: bool
+    listed: int
     target_radius: float

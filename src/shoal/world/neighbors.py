@@ -11,6 +11,7 @@ import numpy as np
 
 from shoal.compiler.kernel import kernel
 from shoal.core.agents import aligned_zeros
+from shoal.world.lists import Lists, is_listed, new_lists
 
 ROUNDS = 40
 _BELOW = 1.0 - 2.0**-52
@@ -22,6 +23,9 @@ class Links(NamedTuple):
     Rows are padded to an even number with infinity; an agent is infinitely far from itself. `wanted` is k of each
     listener where not all pairs can be linked. `rank` says how many of those heard are nearer, agents for those not
     heard; it has no rows where the strategy does not ask.
+
+    Where there are many agents, `lists` says who hears whom instead, and `square` and `rank` have no rows; `silent` are
+    those whom nobody can hear then.
     """
 
     square: np.ndarray
@@ -35,11 +39,16 @@ class Links(NamedTuple):
     off: np.ndarray
     rank: np.ndarray
     order: np.ndarray
+    silent: np.ndarray
+    lists: Lists
 
 
-def new_links(agents: int, lanes: int, ranked: bool = False) -> Links:
-    """Return links of `agents` speakers to `lanes` listeners; `ranked` ones know how many are nearer."""
-    rows = agents + agents % 2
+def new_links(agents: int, lanes: int, ranked: bool = False, listed: int = 0) -> Links:
+    """Return links of `agents` speakers to `lanes` listeners; `ranked` ones know how many are nearer.
+
+    listed : the most that an agent hears where there are many, and lists say whom; 0: distances of all pairs do
+    """
+    rows = 0 if listed else agents + agents % 2
     square = aligned_zeros(rows * lanes).reshape((rows, lanes))
     square[:] = np.inf
     reach = aligned_zeros(lanes)
@@ -56,13 +65,23 @@ def new_links(agents: int, lanes: int, ranked: bool = False) -> Links:
         aligned_zeros(lanes),
         np.zeros(lanes, np.int64),
         np.zeros((rows if ranked else 0, lanes), np.int64),
-        np.zeros(agents if ranked else 0, np.int64),
+        np.zeros(agents if ranked and not listed else 0, np.int64),
+        np.zeros(lanes if listed else 0, np.bool_),
+        new_lists(agents if listed else 0, listed, ranked),
     )
 
 
 @kernel
 def linked(links, j, i):
-    """Whether listener i hears speaker j: the one place that is asked, so that neighbors can be found differently."""
+    """Whether listener i hears speaker j, however neighbors are found."""
+    if links.silent.size > 0:
+        return is_listed(links.lists, j, i)
+    return within(links, j, i)
+
+
+@kernel
+def within(links, j, i):
+    """Whether listener i hears speaker j, where distances say so: without a branch, for loops over lanes."""
     return links.square[j, i] <= links.reach[i]
 
 
@@ -124,7 +143,7 @@ def count_heard(links, agents):
         links.heard[i] = 0
     for j in range(agents):
         for i in range(links.reach.size):
-            links.heard[i] += 1 if linked(links, j, i) else 0
+            links.heard[i] += 1 if within(links, j, i) else 0
 
 
 @kernel
@@ -297,7 +316,7 @@ def rank_heard(links, agents):
         count = 0
         for j in range(agents):
             rank[j, i] = agents
-            if linked(links, j, i):
+            if within(links, j, i):
                 order[count] = j
                 count += 1
         _sort_by_distance(order, count, square, i)

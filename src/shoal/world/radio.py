@@ -8,7 +8,8 @@ import numpy.typing as npt
 from shoal.compiler.kernel import kernel
 from shoal.core.agents import Floats, both, width
 from shoal.core.draws import split, uniform
-from shoal.world.neighbors import linked
+from shoal.world.lists import count_of, heard_of
+from shoal.world.neighbors import within
 
 _LOSS = 1 << 33  # a stream of keys that neither agents nor targets draw from
 
@@ -19,6 +20,7 @@ class Network(NamedTuple):
     limited : whether any pair may be out of touch, whatever land hides; range_square [m^2]
     delay : steps that a report takes; interval : steps from one report of an agent to its next
     loss : chance that a linked pair misses a report
+    max_age : steps that a report may be older than the newest that can have arrived; hops : over how many it may come
     adaptive : k follows the contact, from fewest to most of each agent (L,), with memory `patience` [s]
     """
 
@@ -31,10 +33,16 @@ class Network(NamedTuple):
     fewest: npt.NDArray[np.int64]
     most: npt.NDArray[np.int64]
     patience: float
+    max_age: int
+    hops: int
 
 
 class Air(NamedTuple):
-    """What is on the air: the last D times that all spoke, rows of L lanes, the n-th time in row n % D."""
+    """What is on the air: the last D times that all spoke, rows of L lanes, the n-th time in row n % D.
+
+    heard : (N, L) the step at which was said the newest report that each listener (lane) has of each speaker, -1: none;
+        no rows where no reports are kept
+    """
 
     x: Floats
     y: Floats
@@ -42,6 +50,7 @@ class Air(NamedTuple):
     vy: Floats
     on_target: npt.NDArray[np.bool_]
     told: Floats
+    heard: npt.NDArray[np.int64]
 
 
 Radio = both("Radio", Air, Network, __name__)
@@ -68,7 +77,10 @@ def new_radio(
     degree: tuple[int, int, float] | None,
     interval: int = 1,
 ) -> Any:
-    """Return a radio that has heard nothing yet; `degree` is fewest, most and patience of an adaptive one."""
+    """Return a radio that has heard nothing yet; `degree` is fewest, most and patience of an adaptive one.
+
+    It neither relays nor keeps reports, see world/reception.py.
+    """
     rows = -(-delay // interval) + 1
     fewest, most, patience = degree or (0, 0, 0.0)
     return Radio(
@@ -81,19 +93,22 @@ def new_radio(
         fewest=np.full(lanes, fewest),
         most=np.full(lanes, most),
         patience=patience,
+        max_age=0,
+        hops=1,
         x=np.zeros((rows, lanes)),
         y=np.zeros((rows, lanes)),
         vx=np.zeros((rows, lanes)),
         vy=np.zeros((rows, lanes)),
         on_target=np.zeros((rows, lanes), np.bool_),
         told=np.zeros((rows, lanes, width(told))),
+        heard=np.zeros((0, lanes), np.int64),
     )
 
 
 @kernel
 def speaks(radio, number):
     """Whether agents speak at a step, and what they say must be kept: all do at once, every `interval` steps."""
-    return (radio.delay > 0 or radio.interval > 1) and number % radio.interval == 0
+    return (radio.delay > 0 or radio.interval > 1 or radio.max_age > 0) and number % radio.interval == 0
 
 
 @kernel
@@ -189,6 +204,12 @@ def deafen(links, effects, first, agents):
 
 
 @kernel
+def arrival_key(radio, run, number):
+    """The key of the step at which arrived what is heard at a step."""
+    return split(split(split(run.seed, 0), run.run), spoken(radio, number) + radio.delay)
+
+
+@kernel
 def lose_reports(links, radio, step_key, first, agents):
     """Unlink every pair whose report is lost; `step_key` is that of the step at which it arrives."""
     square = links.square
@@ -229,10 +250,18 @@ def adapt_degree(swarm, radio, links, reports, first, last, world):
     contact = links.off  # scratch by now
     for i in range(first, last):
         contact[i - first] = 1 if swarm.on_target[i] else 0
-    for j in range(world.agents):
-        if reports.on_target[j]:
+    for j in range(world.agents if links.silent.size == 0 else 0):
+        if radio.max_age > 0:
             for i in range(last - first):
-                contact[i] |= 1 if linked(links, j, i) else 0
+                if within(links, j, i):
+                    contact[i] |= 1 if radio.on_target[row(radio, radio.heard[j, i]), j] else 0
+        elif reports.on_target[j]:
+            for i in range(last - first):
+                contact[i] |= 1 if within(links, j, i) else 0
+    if links.silent.size > 0:
+        for i in range(first, last):
+            for slot in range(count_of(links.lists, i)):
+                contact[i] |= 1 if reports.on_target[heard_of(links.lists, i, slot)] else 0
     weight = min(1.0, world.time_step / radio.patience)
     for i in range(first, last):
         if swarm.alive[i] > 0.0:

@@ -6,6 +6,7 @@ import pytest
 from fleets import differences
 from scenarios import scenario
 from shoal.core.errors import FleetError, ScenarioError, StrategyError
+from shoal.core.links import unpacked
 from shoal.record.files import open_record
 from shoal.run.fleet.kills import kills_of
 from shoal.run.fleet.run_fleet import Terms, run_fleet
@@ -39,6 +40,15 @@ RADIO = {"neighbors": 12, "range": 7.0, "loss": 0.2, "delay": 2, "interval": 0.3
         {"disturbances": [{"kind": "current", "east": 0.5}, {"kind": "blackout", "since": 2.0, "until": 4.0}]},
         {"commands": ORDERS},
         {"commands": ORDERS, "network": RADIO, "fleets": [{**make, **POOR} for make in TEAM]},
+        {"network": {**RADIO, "max_age": 1}},
+        {"network": {"neighbors": 12, "range": 4.0, "loss": 0.3, "hops": 3}},
+        {
+            "network": {**RADIO, "max_age": 5, "hops": 2, "adaptive": {"fewest": 3, "most": 18}},
+            "strategy": "shared-sighting",
+            "losses": [{"step": 20, "count": 5}],
+            "joins": [{"step": 40, "count": 3, "fleet": "BoB-0"}],
+            "disturbances": [{"kind": "blackout", "since": 2.0, "until": 4.0}],
+        },
         {"sea": {"coast": [[[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]]]}},  # hides from radios of any range
     ],
     ids=[
@@ -52,6 +62,9 @@ RADIO = {"neighbors": 12, "range": 7.0, "loss": 0.2, "delay": 2, "interval": 0.3
         "disturbed",
         "ordered",
         "ordered-team-with-poor-radios",
+        "kept",
+        "relayed",
+        "kept-and-relayed-in-all-changes",
         "land",
     ],
 )
@@ -74,6 +87,16 @@ class TestLosses:
         planned = scenario("oceans2020", {"steps": 60, "losses": [{"step": 40, "count": 45}]})
         record = run_fleet(planned, Terms(mesh="memory", kill=tuple(f"{id}@30" for id in range(10))))
         assert len(record.scenario.losses) == 2
+        assert differences(record) == []
+
+    @pytest.mark.parametrize("max_age", [1, 5])
+    def test_who_keeps_reports_goes_by_those_of_the_dead(self, max_age):
+        planned = scenario("oceans2020", {"steps": 60, "joins": [{"step": 33, "count": 2, "fleet": "BoB-0"}]})
+        terms = Terms(mesh="memory", kill=tuple(f"{id}@30" for id in range(10)), max_age=max_age)
+        record = run_fleet(planned, terms)
+        assert record.scenario.network.max_age == max_age
+        heard = [unpacked(links)[:, :10].any() for links in record.trajectories[0].links]
+        assert heard == [step < 30 + max_age for step in range(60)]
         assert differences(record) == []
 
     def test_one_that_would_have_joined_later_never_does(self):

@@ -31,7 +31,7 @@ def test_what_buoys_say_they_heard_is_what_the_engine_let_them_hear(network):
 def test_who_says_nothing_in_a_step_heard_nobody_in_it():
     chosen = scenario("oceans2020", {"steps": 2})
     ocean, seen = Ocean(chosen), []
-    log = Log(ocean, lambda simulation, frame, silent: seen.append(unpacked(frame.links[0])))
+    log = Log(ocean, onlooker=lambda simulation, frame, silent: seen.append(unpacked(frame.links[0])))
     heard = np.random.default_rng(1).random((50, 50)) < 0.5
     for speakers in (EVERYBODY, EVERYBODY[:7]):
         log.hear(speakers, heard[speakers])

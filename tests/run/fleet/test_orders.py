@@ -1,55 +1,26 @@
 """Orders to buoys in processes of their own, over their mesh; and a mesh that hears those it has certified only."""
 
-import shutil
-import subprocess
 import threading
 import time
 
 import pytest
 
+from certificates import certificates
 from fleets import differences
 from scenarios import small
 from shoal.buoy.orderer import Orderer
 from shoal.buoy.trust import Trust, key_in
 from shoal.buoy.zenoh_mesh import ANY, ZenohMesh, protocol_of
 from shoal.core.errors import FleetError
-from shoal.run.fleet.processes import _free_ports
 from shoal.run.fleet.run_fleet import Terms, run_fleet
 
 pytest.importorskip("zenoh", reason="the extra fleet is not installed")
 SOON = 20.0  # [s] a busy machine may take that long
 
 
-def certified(folder, authority, name):
-    """Zenoh's configuration of a node that a new authority certifies, made with the openssl command."""
-
-    def openssl(*words):
-        subprocess.run(["openssl", *words], cwd=folder, check=True, capture_output=True)
-
-    new = ("-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes")
-    openssl(
-        "req", "-x509", *new, "-subj", f"/CN={authority}", "-keyout", f"{authority}.key", "-out", f"{authority}.pem"
-    )
-    openssl("req", *new, "-subj", f"/CN={name}", "-keyout", f"{name}.key", "-out", f"{name}.csr")
-    (folder / "ext").write_text("subjectAltName=IP:127.0.0.1\nextendedKeyUsage=serverAuth,clientAuth\n")
-    signed = ("-in", f"{name}.csr", "-CA", f"{authority}.pem", "-CAkey", f"{authority}.key", "-CAcreateserial")
-    openssl("x509", "-req", *signed, "-extfile", "ext", "-out", f"{name}.pem")
-    own = "".join(
-        f'{side}_certificate: "{folder}/{name}.pem", {side}_private_key: "{folder}/{name}.key", '
-        for side in ("listen", "connect")
-    )
-    tls = f'{{ root_ca_certificate: "{folder}/{authority}.pem", enable_mtls: true, {own} }}'
-    file = folder / f"{name}.json5"
-    file.write_text(f"{{ transport: {{ link: {{ tls: {tls} }} }} }}")
-    return file
-
-
 @pytest.fixture(scope="module")
 def configs(tmp_path_factory):
-    if shutil.which("openssl") is None:
-        pytest.skip("there is no openssl command to make certificates with")
-    folder = tmp_path_factory.mktemp("certificates")
-    return certified(folder, "ours", "buoy"), certified(folder, "theirs", "stranger")
+    return certificates(tmp_path_factory.mktemp("certificates"))
 
 
 def wait_for(nodes, mesh):
@@ -64,15 +35,16 @@ class TestCertificates:
 
     def test_who_has_one_is_heard_and_who_has_another_or_none_is_not(self, configs):
         ours, theirs = configs
-        (port,) = _free_ports(1)
-        place = f"127.0.0.1:{port}"
-        tls = {"listen": "tls/127.0.0.1:0", "connect": [f"tls/{place}"]}
-        meshes = [
-            ZenohMesh("shoal/1", "listener", listen=f"tls/{place}", config=ours),
+        meshes = [ZenohMesh("shoal/1", "listener", listen="tls/127.0.0.1:0", config=ours)]
+        place = meshes[0].place
+        tls = {"listen": "tls/127.0.0.1:0", "connect": [place]}
+        meshes += [
             ZenohMesh("shoal/1", "other", **tls, config=theirs),
-            ZenohMesh("shoal/1", "none", connect=[f"tcp/{place}"]),
+            ZenohMesh("shoal/1", "none", connect=[place.replace("tls", "tcp")]),
             ZenohMesh("shoal/1", "friend", **tls, config=ours),
         ]
+        for mesh in meshes:
+            mesh.join()
         listener, *strangers, friend = meshes
         try:
             assert wait_for(2, listener) == 2

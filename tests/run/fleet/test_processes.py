@@ -8,6 +8,9 @@ import pytest
 
 from fleets import differences
 from scenarios import small
+from shoal.buoy.serve import serve
+from shoal.core.errors import FleetError
+from shoal.core.messages import Report
 from shoal.run.fleet.processes import Processes
 from shoal.run.fleet.run_fleet import Terms, run_fleet
 
@@ -43,8 +46,13 @@ def test_noise_and_a_process_that_is_killed_from_outside(crowds):
             crowds[0].mesh.publish(chance.randbytes(chance.randrange(100)))
         if done == 20:
             os.kill(crowds[0].pids[6, 7, 8, 9, 10, 11], signal.SIGKILL)
+        if done == 30:  # a buoy that is there already, and one whose place is free: the fleet is together
+            for ids in ([0], range(6, 12)):
+                with pytest.raises(FleetError, match="has all its buoys"):
+                    serve(scenario, ids, crowds[0]._listener.address, bytes.fromhex(crowds[0]._key))
 
-    record = run_fleet(small(12, 5, {"steps": 40}), TWO, progress=progress)
+    scenario = small(12, 5, {"steps": 40})
+    record = run_fleet(scenario, TWO, progress=progress)
     (loss,) = record.scenario.losses
     assert loss.agents == (6, 7, 8, 9, 10, 11)
     assert loss.step in (20, 21)  # the sea may be a step further when the news comes
@@ -60,11 +68,15 @@ def test_one_that_is_frozen_by_the_clock_rejoins(crowds):
             os.kill(frozen, signal.SIGSTOP)
         if done == 40:
             os.kill(frozen, signal.SIGCONT)
+        if done > 50:  # somebody speaks as buoy 3
+            crowds[0].mesh.publish(Report(3, 0.0, 0.0, 0.0, 0.0, False, (), 0.1 * (done - 1)).to_bytes())
 
     terms = Terms(processes=2, plain=True, speed=1.0)
     record = run_fleet(small(12, 5, {"steps": 60}), terms, progress=progress)
     silent = [note for note in record.provenance["notes"] if "was silent from" in note]
     assert len(silent) == 6
+    (strange,) = [note for note in record.provenance["notes"] if "by somebody else under the number of" in note]
+    assert 1 <= int(strange.split()[0]) <= 10
     assert not any(note.endswith("on") for note in silent)
     frames = record.trajectories[0]
     assert frames.alive.all()
@@ -74,8 +86,6 @@ def test_one_that_is_frozen_by_the_clock_rejoins(crowds):
 
 
 def test_a_process_that_cannot_start_says_why(tmp_path):
-    from shoal.core.errors import FleetError
-
     file = tmp_path / "mine.py"
     file.write_text(
         "from typing import NamedTuple\nimport os, shoal\n"

@@ -3,14 +3,15 @@
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
-from pathlib import Path
+from io import BytesIO
+from tempfile import TemporaryFile
 from time import perf_counter
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from shoal.record.files import open_record, save_record
+from shoal.record.files import RecordFolder
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.run.facts import facts_of
@@ -32,17 +33,20 @@ class Log:
     Parameters
     ----------
     ocean : that it is in
+    folder : what the record is written to, frame by frame; default: it is kept in memory
     onlooker : told of every frame before the step that begins with it; default: nobody is
 
     Attributes
     ----------
+    steps : that are kept
     lost : step and number of every buoy that was lost and that the scenario does not lose
     silent : who is there and says nothing, by number
     commands : what buoys were told on their way beside the scenario's, and obeyed
     notes : what else is to be told
     """
 
-    def __init__(self, ocean: Ocean, onlooker: Onlooker | None = None) -> None:
+    def __init__(self, ocean: Ocean, folder: RecordFolder | None = None, onlooker: Onlooker | None = None) -> None:
+        self.steps = 0
         self.lost: list[tuple[int, int]] = []
         self.silent: Collection[int] = ()
         self.commands: list[Command] = []
@@ -51,16 +55,13 @@ class Log:
             ocean.on_step = lambda frame: onlooker(ocean.simulation, self._as_buoys_have_it(frame), self.silent)
         self._ocean = ocean
         self._fields = crew_of(ocean.simulation.scenario).memory
+        self._folder = folder
+        self._writer = folder and folder.trajectory(ocean.simulation.run, ocean.simulation.scenario.steps)
         self._frames: list[Trajectory] = []
-        self._wants: list[npt.NDArray[np.float64]] = []
+        self._wants: IO[bytes] = TemporaryFile() if folder else BytesIO()  # noqa: SIM115  # `close` does
         self._memory = np.zeros((ocean.simulation.scenario.agents, len(self._fields)))
         self._heard: npt.NDArray[np.bool_] | None = None
         self._begun, self._started = perf_counter(), datetime.now(UTC)
-
-    @property
-    def steps(self) -> int:
-        """Steps that are kept."""
-        return len(self._frames)
 
     def remember(self, ids: npt.NDArray[np.int32], memory: npt.NDArray[np.float64]) -> None:
         """Note what buoys remember now, (n, M)."""
@@ -74,8 +75,13 @@ class Log:
 
     def keep(self, frame: Trajectory) -> None:
         """Keep the frame of a step, which began with what buoys remembered; puppets remember what they want."""
-        self._wants.append(np.stack([frame.memory["want_x"][0], frame.memory["want_y"][0]], axis=1))
-        self._frames.append(self._as_buoys_have_it(frame))
+        self._wants.write(np.stack([frame.memory["want_x"][0], frame.memory["want_y"][0]], axis=1).tobytes())
+        whole = self._as_buoys_have_it(frame)
+        if self._writer:
+            self._writer.append(whole)
+        else:
+            self._frames.append(whole)
+        self.steps += 1
         if self._heard is not None:
             self._heard[:] = False
 
@@ -100,33 +106,41 @@ class Log:
             self.commands.append(command)
             self._ocean.order(command)
 
-    def record(self, notes: list[str], out: Path | None = None) -> Record:
-        """Return the record of the steps done, and write it to a new folder.
+    def record(self, notes: list[str]) -> Record:
+        """Return the record of the steps done, and finish its folder.
 
         Its scenario is that of the run with the buoys lost, and as many steps as were done.
 
         Raises
         ------
-        RecordError : the folder exists or cannot be written
+        RecordError : the folder cannot be written
         """
         planned = self._ocean.simulation
         scenario = as_it_was(planned.scenario, self._ocean.leaves, self.lost, self.steps, self.commands)
         tally = planned.tally if scenario.steps == planned.scenario.steps else self._counted_again(scenario)
         said = [*planned.notes, *self.notes, *map(_told, together(self.commands, scenario.agents)), *notes]
         about = provenance(scenario, self._started, perf_counter() - self._begun, said)
+        self.close()
+        if self._folder and self._writer:
+            if self.steps < planned.scenario.steps:
+                self._writer.cut(self.steps)
+            return self._folder.finish(Record(scenario, facts_of(scenario), planned.roster, (tally,), about, {}))
         frames = {planned.run: Trajectory.join(self._frames)}
-        record = Record(scenario, facts_of(scenario), planned.roster, (tally,), about, frames)
-        if out is None:
-            return record
-        save_record(record, out)
-        return open_record(out)
+        return Record(scenario, facts_of(scenario), planned.roster, (tally,), about, frames)
+
+    def close(self) -> None:
+        """Close its files; without `record`, nothing is left of them."""
+        self._wants.close()
+        if self._writer:
+            self._writer.close()
 
     def _counted_again(self, scenario: Scenario) -> Any:
         """The sums of a run that ended early, in the batches of its length."""
         again = Ocean(scenario, self._ocean.simulation.run)
         everybody = np.arange(scenario.agents, dtype=np.int32)
-        for wants in self._wants:
-            again.obey(everybody, wants)
+        self._wants.seek(0)
+        for _ in range(self.steps):
+            again.obey(everybody, np.frombuffer(self._wants.read(16 * scenario.agents)).reshape(-1, 2))
             again.advance()
         return again.simulation.tally
 

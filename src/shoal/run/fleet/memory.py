@@ -12,10 +12,10 @@ class InMemory:
     Parameters
     ----------
     scenario : of the fleet
-    max_age : steps that a report may be old to be heard
+    max_age : steps that a report may be old to be heard; default: the scenario's
     """
 
-    def __init__(self, scenario: Scenario, max_age: int = 0) -> None:
+    def __init__(self, scenario: Scenario, max_age: int | None = None) -> None:
         self._aboard = Aboard(scenario, range(scenario.agents), max_age=max_age)
         self._mesh = MemoryMesh([])
 
@@ -25,5 +25,6 @@ class InMemory:
             return [self._aboard.begin(tick)], []
         for report in self._aboard.speak(tick):
             self._mesh.publish(report)
-        self._aboard.hear(self._mesh.take(0.0), tick.step)
+        while messages := self._mesh.take(0.0):
+            self._aboard.hear(messages, tick.step)
         return [self._aboard.act(tick)], []

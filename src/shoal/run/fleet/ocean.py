@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 import numpy.typing as npt
 
-from shoal.buoy.tether import READINGS, Tick
+from shoal.buoy.tether import READINGS, Commands, Tick
 from shoal.core.errors import FleetError, ScenarioError, StrategyError
 from shoal.core.links import MOST_LINKED, unpacked
 from shoal.record.trajectory import Trajectory
@@ -71,8 +71,12 @@ class Ocean:
         """What the coming step begins with, for all buoys that are there."""
         everybody = self.readings()
         alive = self.alive
-        hears = None if self.ideal else unpacked(self.simulation.look().links[0])[alive]
-        return Tick(self.number, turn, everybody[alive], alive, hears)
+        return Tick(self.number, turn, everybody[alive], alive, None if self.ideal else self._hears()[alive])
+
+    def _hears(self) -> npt.NDArray[np.bool_]:
+        """Whom each agent hears in the coming step, (N, N); where they keep reports, or relay, who reaches each."""
+        links = unpacked(self.simulation.look().links[0])
+        return self.simulation.reached.T if self.simulation.scenario.network.collects else links
 
     def readings(self) -> npt.NDArray[np.void]:
         """What all instruments say, those of absent agents too, (N,) of READINGS."""
@@ -93,6 +97,11 @@ class Ocean:
     def order(self, command: Command) -> None:
         """Let the engine go by what buoys are told: whom they can hear, where that is limited, is its to say."""
         self.simulation.order(command)
+
+    def follow(self, answers: list[Commands]) -> None:
+        """Let agents want what they say; of what one says twice, the later."""
+        if answers:
+            self.obey(np.concatenate([each.ids for each in answers]), np.concatenate([each.wants for each in answers]))
 
     def advance(self) -> Trajectory:
         """Do a step; return the frame that it began with."""

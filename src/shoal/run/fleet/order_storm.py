@@ -13,6 +13,7 @@ from shoal.scenario.schema import Scenario
 OFTEN = 0.5  # chance of a step in which something is said about orders
 LOST = 0.2  # chance that a message about them does not reach a process
 VALID = 60.0  # [s]: of the rule, not of its code
+WORDS = ("hold", "recall", "resume")
 _KEY, _OTHER, _FLEET = b"k" * 32, b"K" * 32, "soak"
 
 
@@ -90,7 +91,7 @@ class OrderStorm:
             if buoy.under != self._under[id]:
                 problem = f"buoy {id} in step {step} is under {buoy.under!r}, not {self._under[id]!r}"
                 raise BrokenInvariantError("nobody obeys an unauthentic command, everybody an authentic one", problem)
-        return {id: self._under[id] for id in vessel.ids}
+        return {id: self._under[id] for id in vessel.ids if self._under[id] != "resume"}
 
     def _send(self, letter: Letter, processes: list[int]) -> None:
         for process in processes:
@@ -103,7 +104,7 @@ class OrderStorm:
         kind = int(chance.integers(9))
         agents = tuple(chance.permutation(self._scenario.agents)[: int(chance.integers(0, 6))].tolist())
         number = int(clock * 1e9) + 1 + int(chance.integers(1000))
-        order = Order(_FLEET, number, clock + VALID, str(chance.choice(("hold", "recall", "resume"))), {}, agents)
+        order = Order(_FLEET, number, clock + VALID, WORDS[int(chance.integers(len(WORDS)))], {}, agents)
         if kind < 4:
             self._sent.append(order)
             return Letter(order.to_bytes(_KEY), order)
@@ -119,6 +120,6 @@ class OrderStorm:
             void = order._replace(until=clock - 1e-3)
             return Letter((future if chance.random() < 0.5 else void).to_bytes(_KEY), None)
         data = bytearray(order.to_bytes(_KEY))
-        place = int(chance.choice([n for n in range(len(data)) if n != 1]))
-        data[place] ^= 1 << int(chance.integers(8))
+        place = int(chance.integers(len(data) - 1))
+        data[place + (place > 0)] ^= 1 << int(chance.integers(8))
         return Letter(bytes(data), None)

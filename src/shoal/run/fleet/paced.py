@@ -6,6 +6,7 @@ from multiprocessing.connection import wait
 
 import numpy as np
 
+from shoal.buoy.clock import Quickest
 from shoal.buoy.tether import BEGIN, Commands, Note
 from shoal.run.fleet.kills import Killing
 from shoal.run.fleet.log import Log
@@ -13,7 +14,9 @@ from shoal.run.fleet.ocean import Ocean
 from shoal.run.fleet.processes import Processes, Tied
 
 SILENT = 1.0  # seconds of the run without a command after which a body stops
-PINGS = 9  # of which the fastest tells how far clocks are apart
+PINGS = 9  # before the first step, and one in every step: of nine, the quickest tells how far clocks are apart
+ANSWERS = 1.0  # seconds to wait for each before the first step
+NEAR = 1e-4  # seconds by which a clock may be off before it is set again
 
 
 class PacedSea:
@@ -32,7 +35,10 @@ class PacedSea:
         self._silent: dict[int, int] = {}
         self._quiet = max(2, round(SILENT / ocean.simulation.scenario.time_step))
         self._begin = 0.0
-        self._offsets: dict[Tied, float] = {}
+        self._quickest: dict[Tied, Quickest] = {}
+        self._offsets: dict[Tied, float] = {}  # of each process's clock against ours, as it was told [s]
+        self._early: list[int] = []  # who was lost in step 0
+        self.furthest = 0.0  # by how much a clock was set anew at most [s]
         self.behind = 0  # steps that began too late
 
     def run(self, progress: Callable[[int, int], None]) -> None:
@@ -40,15 +46,19 @@ class PacedSea:
 
         Raises
         ------
-        FleetError : a buoy was lost before the first step was done
+        FleetError : all buoys ended by an error of their own
         """
         ocean, steps = self._ocean, self._ocean.simulation.scenario.steps
         begun, lost = self._crowd.ask(ocean.tick(BEGIN)._replace(readings=ocean.readings(), hears=None))
-        ocean.lose(lost)
+        self._lose(lost)
         for commands in begun:
             self._log.remember(commands.ids, commands.memory)
         self._set_clocks()
         while ocean.number < steps:
+            self._ask_for_time()
+            if ocean.number and self._early:
+                self._lose(self._early)
+                self._early = []
             tick = ocean.tick()
             self._lose(self._killing.kill(tick))
             late = time.monotonic() - (self._begin + ocean.number * self._period)
@@ -57,8 +67,8 @@ class PacedSea:
                 if not tied.say(tick.of(tied.ids).to_bytes()):
                     self._lose(self._crowd.lose(tied))
             answers = self._answers(self._begin + (ocean.number + 1) * self._period)
+            ocean.follow(answers)
             for commands in answers:
-                ocean.obey(commands.ids, commands.wants)
                 self._log.hear(commands.ids, commands.heard)
             self._stop_the_silent()
             self._log.keep(ocean.advance())
@@ -78,6 +88,8 @@ class PacedSea:
                 elif isinstance(said, Commands):
                     answers.append(said)
                     self._said[said.ids] = self._ocean.number
+                elif isinstance(said, Note) and said.word == "pong":
+                    self._match(tied, said, time.monotonic())
         time.sleep(max(0.0, until - time.monotonic()))
         return answers
 
@@ -85,9 +97,10 @@ class PacedSea:
         """Stop the bodies of buoys that say nothing, and note when that begins and ends."""
         number = self._ocean.number
         silent = (number - self._said > self._quiet) & self._ocean.alive
-        ids = np.flatnonzero(silent).astype(np.int32)
-        if ids.size:
-            self._ocean.obey(ids, np.zeros((ids.size, 2)))
+        ids = np.flatnonzero(silent)
+        fresh = np.array([id for id in ids.tolist() if id not in self._silent], np.int32)
+        if fresh.size:
+            self._ocean.obey(fresh, np.zeros((fresh.size, 2)))
         self._log.silent = ids.tolist()
         for id in ids.tolist():
             self._silent.setdefault(id, int(self._said[id]))
@@ -95,24 +108,53 @@ class PacedSea:
             self._log.notes.append(f"buoy {id} was silent from step {self._silent.pop(id):,} to {number:,}")
 
     def _lose(self, ids: list[int]) -> None:
-        self._log.lose(self._ocean.number, self._ocean.lose(ids))
+        """Let buoys be lost now; who was there when step 0 began is lost at step 1."""
+        if self._ocean.number == 0:
+            self._early += ids
+        else:
+            self._log.lose(self._ocean.number, self._ocean.lose(ids))
 
     def _set_clocks(self) -> None:
         """Agree on when step 0 begins: ask every process for its time, and tell it in its own when that is."""
         for tied in list(self._crowd.tied):
-            found: list[tuple[float, float]] = []
-            for number in range(PINGS):
-                sent = time.monotonic()
-                tied.say(Note("ping", {"number": number}).to_bytes())
-                said = self._crowd.receive(tied)
-                back = time.monotonic()
-                if isinstance(said, Note) and said.word == "pong":
-                    found.append((back - sent, float(said.facts["here"]) - (sent + back) / 2))
-            if found:
-                self._offsets[tied] = min(found)[1]
+            for _ in range(PINGS):
+                self._ping(tied)
+                while tied.connection.poll(ANSWERS):
+                    said = self._crowd.receive(tied)
+                    if isinstance(said, Note) and said.word == "pong":
+                        self._match(tied, said, time.monotonic())
+                        break
+                    if said is None:
+                        break
         self._begin = time.monotonic() + 2 * self._period
-        for tied, offset in self._offsets.items():
-            tied.say(Note("clock", {"begin": self._begin + offset}).to_bytes())
+        for tied in list(self._crowd.tied):
+            self._tell(tied)
+
+    def _ask_for_time(self) -> None:
+        """Ask one process after the other, one in a step, just before its instruments speak."""
+        tied = self._crowd.tied
+        if tied:
+            self._ping(tied[self._ocean.number % len(tied)])
+
+    def _ping(self, tied: Tied) -> None:
+        tied.say(Note("ping", {"sent": time.monotonic()}).to_bytes())
+
+    def _match(self, tied: Tied, said: Note, back: float) -> None:
+        """Take a process's time; where its clock is off, tell it anew when step 0 began."""
+        sent = float(said.facts["sent"])
+        quickest = self._quickest.setdefault(tied, Quickest())
+        offset = quickest.add(back - sent, float(said.facts["here"]) - (sent + back) / 2)
+        off = offset - self._offsets.get(tied, 0.0)
+        if tied in self._offsets and abs(off) <= NEAR:
+            return
+        self._offsets[tied] = offset
+        if self._begin:
+            self.furthest = max(self.furthest, abs(off))
+            self._tell(tied)
+
+    def _tell(self, tied: Tied) -> None:
+        if tied in self._offsets:
+            tied.say(Note("clock", {"begin": self._begin + self._offsets[tied]}).to_bytes())
 
     def notes(self) -> list[str]:
         """What is to be told of clocks and of buoys that are silent still."""
@@ -121,7 +163,7 @@ class PacedSea:
             notes.append(f"the sea was behind the clock by a step or more in {self.behind:,} steps")
         if self._offsets:
             spread = max(map(abs, self._offsets.values()))
-            notes.append(f"clocks were {1000 * spread:.2f} ms apart at most when step 0 began")
+            notes.append(f"clocks were {1000 * spread:.2f} ms apart at most, and set by {1000 * self.furthest:.2f} ms")
         return notes
 
 

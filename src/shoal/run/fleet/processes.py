@@ -3,13 +3,12 @@
 import os
 import queue
 import secrets
-import socket
 import subprocess
 import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack, suppress
+from contextlib import suppress
 from multiprocessing import AuthenticationError
 from multiprocessing.connection import Connection, Listener, wait
 from pathlib import Path
@@ -29,6 +28,7 @@ from shoal.scenario.schema import Scenario
 
 HOST = "127.0.0.1"
 STARTING = 300.0  # seconds that a process has to start, compiling included
+HELLO = 5.0  # seconds in which whoever comes says who it is
 ASK_AGAIN = 2.0  # seconds without an answer after which a step is asked for again
 PATIENCE = 30.0  # and after which a process that does not answer is ended
 
@@ -65,8 +65,7 @@ class Processes:
     Attributes
     ----------
     tied : the processes that are there
-    mesh : what buoys tell each other arrives here, too
-    address : of one of the buoys, for orders
+    mesh : that of the buoys, at which nobody listens here
     heed : called with what buoys say of orders
 
     Raises
@@ -93,19 +92,22 @@ class Processes:
         self._shares = [tuple(each) for each in shares]
         self._plain = plain
         self._started: dict[tuple[int, ...], subprocess.Popen[bytes]] = {}
-        self._arrived: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        self._arrived: queue.Queue[Any] = queue.Queue()
         self._trust = trust
         self.heed: Callable[[dict[str, Any]], None] = lambda facts: None
-        protocol = protocol_of(trust.mesh_config)
-        self._places = [f"{protocol}/{HOST}:{port}" for port in _free_ports(len(self._shares) + 1)]
-        self.address = self._places[0]
+        self._together = False
+        anywhere = f"{protocol_of(trust.mesh_config)}/{HOST}:0"
         name = f"shoal/{secrets.token_hex(4)}"
-        self.mesh: Mesh = ZenohMesh(name, "sea", listen=self._places[-1], config=trust.mesh_config)
+        mesh = ZenohMesh(name, "sea", listen=anywhere, config=trust.mesh_config, hears=False)
+        mesh.join()
+        self.mesh: Mesh = mesh
+        self._places = [mesh.place]  # where all listen so far: whoever comes connects to them
         self._folder = TemporaryDirectory(prefix="shoal-fleet-")
         self._key = secrets.token_hex(32)
         self._listener = Listener((HOST, 0), authkey=bytes.fromhex(self._key), backlog=max(16, len(self._shares)))
         self._welcome = {
             "fleet": name,
+            "listen": anywhere,
             "nodes": len(self._shares) + 1,
             "run": 0,
             "max_age": max_age,
@@ -151,6 +153,11 @@ class Processes:
     def pids(self) -> dict[tuple[int, ...], int]:
         """The number that the system gave the process of some buoys."""
         return {ids: process.pid for ids, process in self._started.items()}
+
+    @property
+    def address(self) -> str:
+        """Where one of the buoys listens."""
+        return self._places[1]
 
     def ask(self, tick: Tick) -> tuple[list[Commands], list[int]]:
         """Let all buoys begin a step in lockstep: what they want, and who was lost meanwhile."""
@@ -265,6 +272,8 @@ class Processes:
         while True:
             try:
                 self._arrived.put(self._listener.accept())
+                if self._together:
+                    self._refuse_all()
             except (AuthenticationError, EOFError, ConnectionError):
                 continue  # a stranger
             except OSError:
@@ -281,7 +290,9 @@ class Processes:
         while len(self.tied) < len(self._shares):
             self._check_start(until)
             with suppress(queue.Empty):
-                self._greet(self._arrived.get(timeout=0.1))
+                self._greet(self._arrived.get(timeout=0.1), until)
+        self._together = True
+        self._refuse_all()
         waiting = list(self.tied)
         while waiting:
             self._check_start(until)
@@ -293,7 +304,8 @@ class Processes:
                 elif said is None:
                     raise self._failed(tied.ids)
 
-    def _greet(self, connection: "Connection[bytes, bytes]") -> None:
+    def _greet(self, connection: "Connection[bytes, bytes]", until: float) -> None:
+        """Let a process listen at the mesh, connected to all who do so already."""
         try:
             hello = from_bytes(connection.recv_bytes())
             if not isinstance(hello, Note) or hello.word != "hello":
@@ -301,16 +313,27 @@ class Processes:
             ids = tuple(map(int, hello.facts["ids"]))
             same = hello.facts["scenario"] == self._scenario.hash and hello.facts["seed"] == self._scenario.seed
             if ids not in self._shares or any(tied.ids == ids for tied in self.tied) or not same:
-                problem = "has no such buoys left" if same else "is of another scenario or seed"
-                refusal = {"problem": problem, "fix": "give all buoys the scenario and ids of the fleet"}
-                connection.send_bytes(Note("refused", refusal).to_bytes())
+                _refuse(connection, "has no such buoys left" if same else "is of another scenario or seed")
                 return
-            number = self._shares.index(ids)
-            mesh = {"listen": self._places[number], "connect": [*self._places[:number], self._places[-1]]}
-            connection.send_bytes(Note("welcome", {**self._welcome, **mesh}).to_bytes())
+            connection.send_bytes(Note("welcome", {**self._welcome, "connect": self._places}).to_bytes())
+            while not connection.poll(0.1):
+                self._check_start(until)
+            listens = from_bytes(connection.recv_bytes())
+            if not isinstance(listens, Note) or listens.word != "listens":
+                raise MessageError("tether", "says something else than where it listens", "connect buoys only")
+            self._places.append(str(listens.facts["place"]))
             self.tied.append(Tied(ids, connection))
         except (MessageError, EOFError, OSError, KeyError, TypeError, ValueError):
             connection.close()
+
+    def _refuse_all(self) -> None:
+        """Send away who comes when all are there."""
+        with suppress(queue.Empty):
+            while True:
+                with self._arrived.get_nowait() as connection, suppress(EOFError, OSError):
+                    if connection.poll(HELLO):
+                        connection.recv_bytes()  # what is closed unread takes the refusal with it
+                    _refuse(connection, "has all its buoys")
 
     def _check_start(self, until: float) -> None:
         for ids, process in self._started.items():
@@ -336,10 +359,6 @@ class Processes:
         return (lines[-1] if lines else ""), ""
 
 
-def _free_ports(count: int) -> list[int]:
-    """Ports that nobody listens at now."""
-    with ExitStack() as stack:
-        trials = [stack.enter_context(socket.socket()) for _ in range(count)]
-        for trial in trials:
-            trial.bind((HOST, 0))
-        return [int(trial.getsockname()[1]) for trial in trials]
+def _refuse(connection: "Connection[bytes, bytes]", problem: str) -> None:
+    facts = {"problem": problem, "fix": "give all buoys the scenario and ids of the fleet, each id once"}
+    connection.send_bytes(Note("refused", facts).to_bytes())

@@ -39,7 +39,7 @@ class Terms:
     speed : times real time; in lockstep, and in memory: at most, default as fast as it goes
     kill : who is killed when, BUOY@STEP
     mesh : "zenoh", between processes; "memory", all in this process, which is always in lockstep
-    max_age : steps that a report may be old to be heard; default: 0 in lockstep, else 1
+    max_age : network.max_age of the scenario; default: as it says, and by the clock 1 at least on board
     plain : whether buoys decide without a compiler: they start at once, with less memory
     trust : whose orders they obey, and whom they hear
     """
@@ -91,18 +91,18 @@ def run_fleet(
     scenario, terms = load(scenario), terms or Terms()
     kills = kills_of(terms.kill, scenario.agents)
     shares = _shares(scenario.agents, terms)
-    if out is not None:
-        with RecordFolder(out):  # refused now, not after the run
-            pass
     in_memory = terms.mesh == "memory"
     if terms.trust.command_key:
         key_in(terms.trust.command_key)
     by_clock = not terms.in_lockstep
     period = scenario.time_step / (terms.speed or 1.0)
-    max_age = terms.max_age if terms.max_age is not None else int(by_clock)
+    if terms.max_age is not None:
+        scenario = load(scenario, **{"network.max_age": terms.max_age})
+    max_age = max(scenario.network.max_age, int(by_clock and terms.max_age is None))
     notes: list[str] = []
     report = progress or (lambda done, total: None)
     with ExitStack() as stack:
+        folder = None if out is None else stack.enter_context(RecordFolder(out))  # refused now, not after the run
         crowd: Crowd
         if in_memory:
             ocean = _opened(scenario, onlooker)
@@ -123,7 +123,8 @@ def run_fleet(
             )
             (ocean,) = oceans
         mark_compiled(scenario, BUOYS)
-        killing, log = Killing(crowd, kills), Log(ocean, onlooker)
+        killing, log = Killing(crowd, kills), Log(ocean, folder, onlooker)
+        stack.callback(log.close)
         if isinstance(crowd, Processes):
             crowd.heed = log.heed
             if tell and terms.trust.command_key:
@@ -141,7 +142,7 @@ def run_fleet(
         facts = crowd.finish() if isinstance(crowd, Processes) else []
         words = crowd.last_words() if isinstance(crowd, Processes) else []
         notes = [*notes, *_lost(log.lost), *words, *(sea.notes() if sea else ()), *_measured(facts, by_clock)]
-    return log.record(notes, None if out is None else Path(out))
+        return log.record(notes)
 
 
 def _opened(scenario: Scenario, onlooker: Onlooker | None) -> Ocean:
@@ -206,12 +207,16 @@ def _measured(facts: list[dict[str, Any]], by_clock: bool) -> list[str]:
     counts: Counter[str] = Counter()
     for each in facts:
         counts.update(each["counts"])
-    dropped = [f"{counts[word]:,} {word}" for word in ("late", "duplicate", "early", "damaged", "strange", "reordered")]
+    words = ("late", "duplicate", "changed", "early", "damaged", "strange", "reordered")
+    dropped = [f"{counts[word]:,} {word}" for word in words]
     notes = [
         f"{1000 * spent / max(buoy_seconds, 1e-9):.2f} ms of processor per buoy and second, "
         f"{max(each['memory'] for each in facts) / 2**20:.0f} MiB in the largest of {len(facts)} processes",
         f"of the reports that arrived {counts['new']:,} were new; {', '.join(dropped)}",
     ]
+    foreign = sum(each["foreign"] for each in facts)
+    if foreign:
+        notes.append(f"{foreign:,} reports were said by somebody else under the number of a buoy that reports itself")
     orders: Counter[str] = Counter()
     for each in facts:
         orders.update(each["orders"])

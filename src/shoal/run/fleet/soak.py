@@ -10,18 +10,23 @@ import numpy as np
 
 from shoal.buoy.tether import BEGIN, Commands, Tick
 from shoal.run.fleet.adversary import RECOVERY, Adversary, Incident
-from shoal.run.fleet.invariants import BrokenInvariantError, Ear, check_commands, demand, truths
+from shoal.run.fleet.ear import Ear, Heard, KeptEar
+from shoal.run.fleet.invariants import BrokenInvariantError, demand, together, truths
 from shoal.run.fleet.log import Log
 from shoal.run.fleet.ocean import Ocean
 from shoal.run.fleet.order_storm import OrderStorm
 from shoal.run.fleet.paced import PacedSea
 from shoal.run.fleet.sea_watch import SeaWatch
-from shoal.run.fleet.vessel import Vessel, reading_once
+from shoal.run.fleet.second_opinion import Doubt, SecondOpinion
+from shoal.run.fleet.thought_check import check_commands, check_thoughts
+from shoal.run.fleet.vessel import Thought, Vessel
 from shoal.run.fleet.virtual_mesh import Parcel, VirtualMesh
+from shoal.scenario.briefing import fleet_of
 from shoal.scenario.load import Source, load
 from shoal.scenario.schema import Scenario
 
 STEPS = 3_000  # of a soak, unless it is told otherwise
+SECOND = 4  # steps of a process from one decision that is made again to the next
 
 
 class Outcome(NamedTuple):
@@ -69,7 +74,20 @@ class Setting:
         cuts = [agents * p // processes for p in range(processes + 1)]
         changed = {**dict(scenario), "network": network, "seed": seed, "steps": steps}
         shares = [list(range(a, b)) for a, b in pairwise(cuts)]
-        return cls(Scenario.model_validate(changed), shares, int(chance.integers(0, 4)))
+        return cls(Scenario.model_validate(changed), shares, max(network.max_age, int(chance.integers(0, 4))))
+
+
+class _Decided(NamedTuple):
+    """A decision of a process: at which tick, what its buoys thought, and what came of it.
+
+    heard : what they can have heard; under : the orders that they are under, of those who are under any
+    """
+
+    tick: Tick
+    thought: Thought
+    commands: Commands
+    heard: Heard
+    under: dict[int, str]
 
 
 class Soak:
@@ -94,9 +112,11 @@ class Soak:
         self._adversary = Adversary(seed, len(setting.shares), scenario.agents)
         self._mesh = VirtualMesh(len(setting.shares), self._adversary)
         self._vessels = {p: Vessel(scenario, ids, setting.max_age) for p, ids in enumerate(setting.shares)}
-        self._ears = {p: self._ear() for p in self._vessels}
         self._told = self._vessels[0].aboard.buoys[0].told
+        self._ears = {p: self._ear() for p in self._vessels}
         self._neighbors = self._vessels[0].aboard.buoys[0].neighbors
+        self._speeds = np.array([scenario.fleets[fleet_of(scenario, id)].max_speed for id in range(scenario.agents)])
+        self._second = SecondOpinion(scenario)
         self._watch = SeaWatch(scenario, self._ocean)
         self._orders = OrderStorm(seed, scenario, len(setting.shares))
         for process, vessel in self._vessels.items():
@@ -107,8 +127,7 @@ class Soak:
         """Go to the end, or to the first invariant that is broken."""
         broken = None
         try:
-            with reading_once():
-                self._run()
+            self._run()
         except BrokenInvariantError as error:
             broken = str(error)
         except Exception as error:  # whatever it is, its seed is what is needed
@@ -136,8 +155,8 @@ class Soak:
         self._orders.blow(now)
         self._speak(now, tick)
         answers = self._hear_and_act(now)
+        self._ocean.follow(answers)
         for commands in answers:
-            self._ocean.obey(commands.ids, commands.wants)
             self._sea._said[commands.ids] = now
             self._watch.note(commands, now)
         self._sea._stop_the_silent()
@@ -177,7 +196,8 @@ class Soak:
     def _speak(self, now: int, tick: Tick) -> None:
         """Let every process that is ready begin its step."""
         time_step = self._scenario.time_step
-        said: list[Parcel] = []
+        said: list[bytes] = []
+        ticks: list[Tick] = []
         senders: list[int] = []
         for process, vessel in self._vessels.items():
             if process in self._saved and vessel.away <= now:
@@ -189,22 +209,27 @@ class Soak:
                 self._mesh.listen(process, True)
             if process in self._saved:
                 continue
-            spoke = vessel.speak(tick.of(vessel.ids))
+            spoke = vessel.speak(tick)
             if spoke is None or vessel.tick is None:
                 continue
             if vessel.tick.step % self._scenario.report_steps:
                 demand("nobody speaks between reports", spoke, [])
                 continue
-            for data, truth in zip(spoke, truths(spoke, vessel.tick, self._told, time_step), strict=True):
-                said.append(Parcel(float(now), 0, data, truth, vessel.tick.step))
-                senders.append(process)
+            demand("every buoy speaks", len(spoke), len(vessel.tick.readings))
+            said += spoke
+            ticks.append(vessel.tick)
+            senders += [process] * len(spoke)
         if said:
-            self._mesh.publish(said, senders)
+            readings = together(ticks)
+            steps = [each.step for each in ticks for _ in each.readings]
+            meant = truths(said, readings, steps, self._told, time_step)
+            parcels = list(map(Parcel, said, readings["id"].tolist(), meant, steps))
+            self._mesh.publish(float(now), parcels, senders)
         self._mesh.disturb(now, time_step, tuple(0.0 for _ in self._told))
 
     def _hear_and_act(self, now: int) -> list[Commands]:
         """Let every process hear what arrived, and decide, in the order of time."""
-        answers: list[Commands] = []
+        decided: list[_Decided] = []
         ready = [(vessel.acts_at, process) for process, vessel in self._vessels.items()]
         for at, process in sorted(ready):
             vessel, ear = self._vessels[process], self._ears[process]
@@ -218,24 +243,52 @@ class Soak:
             ear.check_counts(vessel.aboard.inbox)
             if commands is None:
                 continue
-            spoken = tick.step - self._scenario.network.delay
-            spoken -= spoken % self._scenario.report_steps
-            heard = ear.check_thoughts(tick, spoken, vessel.thoughts, self._neighbors, self._scenario.time_step)
-            check_commands(commands, vessel.thoughts, self._orders.check(process, vessel, tick.step))
+            demand("every buoy decides", [len(each.ids) for each in vessel.thoughts], [len(tick.readings)])
+            heard, under = ear.hears(tick, self._spoken(tick)), self._orders.check(process, vessel, tick.step)
+            decided.append(_Decided(tick, vessel.thoughts[0], commands, heard, under))
             ear.forget(tick.step)
             ear.check_kept(vessel.aboard.inbox)
             self._hash.update(commands.wants.tobytes())
             self.decisions += len(commands.ids)
-            if self._adversary.calm > RECOVERY and spoken >= 0:
-                demand("after a calm everybody is heard", heard, int(tick.alive.sum()))
-            answers.append(commands)
+        if decided:
+            self._check(decided)
         if self._adversary.calm > RECOVERY:
-            demand("after a calm everybody decides", len(answers), len(self._vessels))
-        return answers
+            demand("after a calm everybody decides", len(decided), len(self._vessels))
+        return [each.commands for each in decided]
+
+    def _spoken(self, tick: Tick) -> int:
+        """The step at which was said what is heard in a step, if nothing is late."""
+        arrived = tick.step - self._scenario.network.delay
+        return arrived - arrived % self._scenario.report_steps
+
+    def _check(self, decided: list[_Decided]) -> None:
+        """Every decision of a step is what it must be."""
+        ticks, thoughts, commands, heard, under = zip(*decided, strict=True)
+        windows = [(self._spoken(tick) - self._setting.max_age, self._spoken(tick)) for tick in ticks]
+        nearest = check_thoughts(thoughts, ticks, heard, self._neighbors, windows, self._scenario.time_step)
+        check_commands(commands, thoughts, self._speeds, {id: word for each in under for id, word in each.items()})
+        doubts: dict[int, list[Doubt]] = {}
+        begin = 0
+        for tick, thought, *_ in decided:
+            one = tick.step // SECOND % len(thought.ids)
+            if tick.step % SECOND == 0:
+                about = (each[one] for each in (thought.before, thought.wants, thought.after))
+                doubt = Doubt(thought.ids[one], thought.readings[one], nearest[begin + one], *about)
+                doubts.setdefault(tick.step, []).append(doubt)
+            begin += len(thought.ids)
+        for step, those in doubts.items():
+            self._second.check(those, step)
+        if self._adversary.calm > RECOVERY:
+            for tick, each in zip(ticks, heard, strict=True):
+                if self._spoken(tick) >= 0:
+                    there = ~np.isnan(each.tables[:, :-1, 0]).all(axis=0)
+                    demand("after a calm everybody is heard", int(there[tick.alive].sum()), int(tick.alive.sum()))
 
     def _ear(self) -> Ear:
         scenario, max_age = self._scenario, self._setting.max_age
-        return Ear(scenario.agents, scenario.network.delay + scenario.report_steps + max_age, max_age)
+        ear = KeptEar if scenario.network.max_age else Ear
+        kept = scenario.network.delay + scenario.report_steps + max_age
+        return ear(scenario.agents, len(self._told), kept, max_age)
 
 
 def soak(seed: int, source: Source = "oceans2020", steps: int = STEPS) -> Outcome:

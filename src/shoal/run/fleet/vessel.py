@@ -1,69 +1,60 @@
 """A process of buoys in virtual time: what `shoal.buoy.paced` does by a clock, with neither clock nor tether."""
 
 import math
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from shoal.buoy import inbox
 from shoal.buoy.aboard import Aboard
 from shoal.buoy.paced import HALF
+from shoal.buoy.rows import Floats
+from shoal.buoy.said import Near, Said
 from shoal.buoy.tether import Commands, Tick
-from shoal.core.messages import Own, Report
 from shoal.run.fleet.virtual_mesh import Parcel
 from shoal.scenario.schema import Scenario
 
-_MANY = 4_000  # reports that are remembered as they were read
-
-
-@contextmanager
-def reading_once() -> Iterator[None]:
-    """Until the block ends, bytes that reach several inboxes are read once: they say the same to all of them."""
-    known: dict[bytes, Report] = {}
-
-    class Once:
-        @staticmethod
-        def from_bytes(data: bytes, told: tuple[str, ...]) -> Report:
-            report = known.get(data)
-            if report is None:
-                if len(known) > _MANY:
-                    known.clear()
-                report = known[data] = Report.from_bytes(data, told)
-            return report
-
-    reader: Any = inbox
-    reader.Report = Once
-    try:
-        yield
-    finally:
-        reader.Report = Report
-
 
 class Thought(NamedTuple):
-    """What a buoy decided on, and what came of it: velocities [m/s]."""
+    """What n buoys decided on in a step, and what came of it.
 
-    me: Own
-    heard: list[Report]
+    ids, readings : which, and (n, 8) what they measured
+    said, near : what was said, and (n, k, 2) by whom of their neighbors
+    wants : (n, 2) velocities [m/s]; before, after : (n, M) their memories
+    """
+
+    ids: list[int]
+    readings: Floats
+    said: Said
+    near: Near
     step: int
-    wants: tuple[float, float]
+    wants: Floats
+    before: Floats
+    after: Floats
 
 
-class WatchedMind:
-    """A buoy's mind of which somebody sees every thought.
+class WatchedMinds:
+    """Minds of buoys of which somebody sees every thought.
 
     Parameters
     ----------
-    mind : to watch; thoughts : where they are kept
+    minds : to watch; ids : whose they are; thoughts : where they are kept
     """
 
-    def __init__(self, mind: Any, thoughts: list[Thought]) -> None:
-        self._mind, self._thoughts = mind, thoughts
-        self.told, self.begin, self.remembered, self.recall = mind.told, mind.begin, mind.remembered, mind.recall
+    def __init__(self, minds: Any, ids: tuple[int, ...], thoughts: list[Thought]) -> None:
+        self._minds, self._ids, self._thoughts = minds, ids, thoughts
+        self.told, self.begin, self.numbers, self.recall = minds.told, minds.begin, minds.numbers, minds.recall
+        self.memories = minds.memories
 
-    def decide(self, me: Own, heard: list[Report], step: int) -> tuple[float, float]:
-        """As the mind does."""
-        wants: tuple[float, float] = self._mind.decide(me, heard, step)
-        self._thoughts.append(Thought(me, heard, step, wants))
+    def decide(self, places: list[int], readings: Floats, said: Said, near: Near, step: int) -> Floats:
+        """As the minds do.
+
+        Parameters
+        ----------
+        places, readings, said, near, step : as theirs
+        """
+        before = self.memories(places)
+        wants: Floats = self._minds.decide(places, readings, said, near, step)
+        ids, after = [self._ids[place] for place in places], self.memories(places)
+        self._thoughts.append(Thought(ids, readings, said, near, step, wants, before, after))
         return wants
 
 
@@ -94,8 +85,10 @@ class Vessel:
         self.aboard = Aboard(self._scenario, self.ids, max_age=self._max_age)
         self.tick: Tick | None = None
         self.acts_at, self.done = math.inf, -1
-        for id, buoy in self.aboard.buoys.items():
-            buoy._mind = WatchedMind(buoy._mind, self.thoughts)
+        buoys = self.aboard.buoys
+        minds = WatchedMinds(buoys[self.ids[0]]._minds, self.ids, self.thoughts)
+        for id, buoy in buoys.items():
+            buoy._minds = minds
             if id in states:
                 buoy.restore(states[id])
 
@@ -104,12 +97,12 @@ class Vessel:
         return {id: buoy.state for id, buoy in self.aboard.buoys.items()}
 
     def speak(self, tick: Tick) -> list[bytes] | None:
-        """Begin a step, unless it is in one, or is further by its own clock: what is published."""
-        if self.tick is not None or tick.step <= self.done or tick.step < self.away:
-            return None
+        """Begin a step, unless it is in one, or has done this one by its own clock: what is published."""
         step = max(tick.step, math.floor(tick.step + self.off))
-        self.tick = tick._replace(step=step)
-        self.acts_at = max(float(tick.step), step + HALF - self.off)
+        if self.tick is not None or step == self.done or tick.step < self.away:
+            return None
+        self.tick = tick.of(self.ids)._replace(step=step)
+        self.acts_at = max(float(tick.step), min(step - self.off, float(tick.step)) + HALF)
         return self.aboard.speak(self.tick)
 
     def acts(self, now: int, parcels: list[Parcel]) -> Commands | None:

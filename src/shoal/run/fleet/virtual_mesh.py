@@ -1,5 +1,6 @@
 """A mesh in virtual time: messages are under way for as long as an adversary wants, if they arrive at all."""
 
+import itertools
 from bisect import bisect_left
 from collections import Counter, deque
 from typing import NamedTuple
@@ -12,15 +13,14 @@ from shoal.run.fleet.adversary import Adversary
 class Parcel(NamedTuple):
     """A message on its way.
 
-    at : when it arrives [steps]; number : of all parcels, so that no two are alike
-    truth : what its speaker said, as (id, x, y, vx, vy, on target, told); None: it must not be believed
-    step : at which it was said, by the speaker's clock; word : what a listener must think of it if not believable
+    speaker : who said it, at a step by its own clock; None: it must not be believed
+    truth : what was said, as numbers in the order of invariants.CONTENT, 8 bytes each
+    word : what a listener must think of it if it is not believable
     """
 
-    at: float
-    number: int
     data: bytes
-    truth: tuple[object, ...] | None
+    speaker: int | None
+    truth: bytes = b""
     step: int = 0
     word: str = ""
 
@@ -41,7 +41,7 @@ class VirtualMesh:
     def __init__(self, processes: int, adversary: Adversary) -> None:
         self.counts: Counter[str] = Counter()
         self._adversary = adversary
-        self._under_way: list[list[Parcel]] = [[] for _ in range(processes)]
+        self._under_way: list[list[tuple[float, int, Parcel]]] = [[] for _ in range(processes)]  # when, which, what
         self._listens = np.ones(processes, bool)
         self._kept: deque[Parcel] = deque(maxlen=400)
         self._number = 0
@@ -50,8 +50,8 @@ class VirtualMesh:
         """How many have neither arrived nor been lost."""
         return sum(map(len, self._under_way))
 
-    def publish(self, said: list[Parcel], senders: list[int]) -> None:
-        """Send parcels to all processes; `at` is when each is said, `senders` by whom."""
+    def publish(self, now: float, said: list[Parcel], senders: list[int]) -> None:
+        """Send parcels to all processes, from those in `senders`."""
         adversary, counts = self._adversary, self.counts
         fates = adversary.fates(len(said))
         cut = adversary.sides[senders][:, None] != adversary.sides
@@ -62,25 +62,19 @@ class VirtualMesh:
         counts["cut"] += int(cut.sum())
         counts["dropped"] += int(dropped.sum())
         counts["nobody"] += int(nobody.sum())
+        damaged = {(m, p): self._damaged(said[m]) for m, p in np.argwhere(fates.damaged & arrives).tolist()}
         for p, way in enumerate(self._under_way):
-            for m, delay in zip(np.flatnonzero(arrives[:, p]).tolist(), fates.delays[arrives[:, p], p], strict=True):
-                at, _, data, truth, step, _ = said[m]
-                self._number += 1
-                way.append(Parcel(at + float(delay), self._number, data, truth, step))
-        for m, p in np.argwhere(fates.damaged & arrives).tolist():
-            self._damage(p, said[m])
+            theirs = np.flatnonzero(arrives[:, p])
+            at = (now + fates.delays[theirs, p]).tolist()
+            parcels = [damaged.get((m, p)) or said[m] for m in theirs.tolist()]
+            way.extend(zip(at, itertools.count(self._number + 1), parcels))
+            self._number += len(at)
         for m, p in np.argwhere((fates.copies >= 0.0) & arrives).tolist():
-            self._more(p, said[m]._replace(at=said[m].at + float(fates.copies[m, p])))
+            self._more(p, now + float(fates.copies[m, p]), said[m])
         self._kept.extend(said[:: max(1, len(said) // 4)])
 
-    def _damage(self, listener: int, parcel: Parcel) -> None:
-        """Damage this parcel on the way to a listener: the last that has its data."""
-        way = self._under_way[listener]
-        for place in range(len(way) - 1, -1, -1):
-            if way[place].data is parcel.data:
-                data = self._adversary.damage(parcel.data)
-                way[place] = way[place]._replace(data=data, truth=None, word="damaged")
-                return
+    def _damaged(self, parcel: Parcel) -> Parcel:
+        return Parcel(self._adversary.damage(parcel.data), None, word="damaged")
 
     def disturb(self, now: int, time_step: float, told: tuple[float, ...]) -> None:
         """Let come what nobody says at this time: noise, and what was said long ago."""
@@ -88,21 +82,21 @@ class VirtualMesh:
         for p in np.flatnonzero(self._listens).tolist():
             if self._adversary.happens(weather.noise):
                 data, word = self._adversary.noise(now, time_step, told)
-                self._more(p, Parcel(now + 0.1, 0, data, None, word=word))
+                self._more(p, now + 0.1, Parcel(data, None, word=word))
             if self._kept and self._adversary.happens(weather.again):
-                self._more(p, self._kept[self._adversary.one_of(len(self._kept))]._replace(at=now + 0.1))
+                self._more(p, now + 0.1, self._kept[self._adversary.one_of(len(self._kept))])
 
-    def _more(self, listener: int, parcel: Parcel) -> None:
+    def _more(self, listener: int, at: float, parcel: Parcel) -> None:
         self._number += 1
         self.counts["more"] += 1
-        self._under_way[listener].append(parcel._replace(number=self._number))
+        self._under_way[listener].append((at, self._number, parcel))
 
     def take(self, listener: int, until: float) -> list[Parcel]:
         """What arrives at a process before a time, in the order of arrival."""
         way = self._under_way[listener]
         way.sort()
         end = bisect_left(way, (until,))
-        arrived = way[:end]
+        arrived = [parcel for _, _, parcel in way[:end]]
         del way[:end]
         self.counts["arrived"] += len(arrived)
         return arrived

@@ -1,0 +1,59 @@
+"""Parts of a stage that kernels hand on without counting references to the arrays in them.
+
+numba counts a reference to every array of a NamedTuple wherever it is given a name or handed on, 50 of a swarm, and
+takes the pairs out again once kernels are inlined into each other: a fifth of a cold start. What a stage points at is
+Python's for longer than any kernel runs (placed.py); a kernel must neither make such a NamedTuple nor return one.
+"""
+
+from typing import Any
+
+from numba import types
+from numba.core.boxing import unbox_tuple
+from numba.core.datamodel.models import TupleModel
+from numba.core.datamodel.registry import default_manager
+from numba.extending import NativeValue, unbox
+
+_MODEL: Any = TupleModel  # numba has no types that mypy sees
+_manager: Any = default_manager
+_unbox: Any = unbox
+_unboxed: Any = unbox_tuple
+_value: Any = NativeValue
+_lent: set[type[Any]] = set()
+
+
+def lend(*classes: type[Any]) -> None:
+    """Count no references in NamedTuples of these classes from now on, in this process.
+
+    Parameters
+    ----------
+    classes : of parts of a stage, before a kernel is compiled that has them as arguments
+    """
+    _lent.update(classes)
+
+
+class _Borrowed(_MODEL):  # type: ignore[misc]
+    def traverse(self, builder: Any) -> list[Any]:
+        return []  # nothing in it is counted
+
+
+def _model(manager: Any, kind: Any) -> Any:
+    return (_Borrowed if kind.instance_class in _lent else _MODEL)(manager, kind)
+
+
+_manager.register(types.NamedTuple, _model)
+
+
+@_unbox(types.NamedTuple)  # type: ignore[untyped-decorator]
+def _from_python(kind: Any, given: Any, context: Any) -> Any:
+    """As numba does; but what Python's call took of a part that is lent, it gives back by itself."""
+    native = _unboxed(kind, given, context)
+    if not isinstance(context.context.data_model_manager[kind], _Borrowed):
+        return native
+
+    def cleanup() -> None:
+        if native.cleanup is not None:
+            native.cleanup()
+        for place, each in enumerate(kind):
+            context.context.nrt.decref(context.builder, each, context.builder.extract_value(native.value, place))
+
+    return _value(native.value, is_error=native.is_error, cleanup=cleanup)
