@@ -71,8 +71,11 @@ def test_compiled_code_finds_its_arrays_in_an_arena():
     ("changes", "word"),
     [
         ({"motion.update_order": "sequential"}, "sequential"),
-        ({"agents": 481, "neighbors": 5}, "480 agents"),
+        ({"agents": 256, "neighbors": 5}, "255 agents"),
         ({"disturbances": [{"kind": "blackout", "since": 1.0, "until": 2.0}]}, "disturbances"),
+        ({"commands": [{"step": 10, "order": "hold"}]}, "commands"),
+        ({"network.hops": 2}, "network.hops"),
+        ({"network.max_age": 2}, "network.max_age"),
     ],
 )
 def test_what_a_card_cannot_do_is_named(changes, word):
@@ -80,7 +83,7 @@ def test_what_a_card_cannot_do_is_named(changes, word):
 
 
 def test_what_it_can_is_not():
-    assert why_not(load("oceans2020", agents=480)) is None
+    assert why_not(load("oceans2020", agents=255)) is None
 
 
 def test_land_is_refused():

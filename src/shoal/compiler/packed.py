@@ -10,6 +10,7 @@ import numpy as np
 from numba import typeof, types
 from numba.extending import lower_builtin, type_callable
 
+from shoal.compiler.known import with_aligned_records
 from shoal.compiler.late import compiles
 from shoal.compiler.placed import layout, put, size_of, unowned
 
@@ -90,7 +91,7 @@ def reader(value: Any) -> Callable[[Any], Any]:
         return address
 
     if compiles():
-        kind = typeof(value)
+        kind = with_aligned_records(typeof(value))
 
         @type_callable(read)
         def type_of_read(context):

@@ -73,7 +73,8 @@ def part(stage: Any, field: int) -> Any:
 
 
 @cache
-def _type() -> Any:
+def stage_type() -> Any:
+    """The type that all stages have."""
     return typeof(_MODEL[0]())
 
 
@@ -126,12 +127,12 @@ def put(value: Any, where: Any, room: Any) -> None:
 
 @cache
 def _layout() -> Any:
-    return layout(_type())
+    return layout(stage_type())
 
 
 @cache
 def _size() -> int:
-    return size_of(_type())
+    return size_of(stage_type())
 
 
 @cache
@@ -166,14 +167,14 @@ _TUPLE: Any = types.BaseTuple  # NamedTuples, too
 @type_callable(part)
 def _type_of_part(context):
     def typer(stage, field):
-        return _type()[field.literal_value] if isinstance(field, types.IntegerLiteral) else None
+        return stage_type()[field.literal_value] if isinstance(field, types.IntegerLiteral) else None
 
     return typer
 
 
 @lower_builtin(part, types.Integer, types.IntegerLiteral)
 def _load(context, builder, signature, arguments):
-    place, stage = signature.args[1].literal_value, _type()
+    place, stage = signature.args[1].literal_value, stage_type()
     pointer = builder.inttoptr(arguments[0], context.get_data_type(stage).as_pointer())
     return unowned(context, builder, stage[place], cgutils.gep_inbounds(builder, pointer, 0, place))
 

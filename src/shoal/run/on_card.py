@@ -61,6 +61,8 @@ def why_not(scenario: Scenario) -> str | None:
         "disturbances": bool(scenario.disturbances),
         "currents, wind and land (sea)": scenario.sea is not None,
         f"more than {MOST_AGENTS} agents": scenario.agents > MOST_AGENTS,
+        "orders on the way (commands)": bool(scenario.commands),
+        "reports that are relayed or kept (network.hops, network.max_age)": scenario.network.collects,
         "strategies from a file": not crew_of(scenario).builtin,
         f"metrics and targets of installed packages ({', '.join(sorted(packages))})": bool(packages),
     }
@@ -109,8 +111,11 @@ def run_on_card(
 
 def _kind_of(simulation: Simulation) -> Any:
     """What runs of one launch have in common: code, and a length."""
+    from shoal.engine.gpu.batch import facts
+
     crew = simulation.crew
-    return _classes(crew.params), crew.memory, crew.told, simulation.scenario.steps
+    known = facts(simulation.world, simulation.radio)
+    return _classes(crew.params), crew.memory, crew.told, known, simulation.scenario.steps
 
 
 def _classes(params: Any) -> Any:

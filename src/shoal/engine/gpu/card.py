@@ -65,6 +65,14 @@ def compiled(function: Callable[..., Any]) -> Any:
     return jit(function, max_registers=REGISTERS, lto=False)  # linked as it is: a linker that optimizes fuses
 
 
+def numbers(count: int) -> Any:
+    """So many numbers on the card, whatever they are."""
+    from numba import cuda
+
+    api: Any = cuda
+    return api.device_array(count)
+
+
 def finish() -> None:
     """Wait for the card."""
     from numba import cuda

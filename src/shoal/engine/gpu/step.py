@@ -12,7 +12,7 @@ from typing import Any
 
 import numba.cuda
 
-from shoal.compiler.placed import part
+from shoal.compiler.known import column, read
 from shoal.core.draws import TARGET_STREAM, split
 from shoal.engine.frames import keep_frame, keep_links
 from shoal.engine.gpu.measure import (
@@ -63,26 +63,26 @@ def begin_step(stage, now, i, clerk):
 
     Every section reads the parts of the stage that it needs anew: what all need together is more than a thread holds.
     """
-    agent = i < part(stage, WORLD).agents
+    agent = i < read(stage, WORLD).agents
     engaged = sense(stage, now, i, agent, clerk)
     when = Step(now.number, now.batch, 0)
-    tally, world, swarm, scratch = part(stage, TALLY), part(stage, WORLD), part(stage, SWARM), part(stage, SCRATCH)
+    tally, world, swarm, scratch = read(stage, TALLY), read(stage, WORLD), read(stage, SWARM), read(stage, SCRATCH)
     look_before_move(tally, when, world, swarm, scratch, i, agent, clerk)
     if now.frame >= 0:
         if clerk:
-            keep_frame(part(stage, FRAMES), now.frame, now.number, world, swarm, part(stage, TARGETS))
+            keep_frame(read(stage, FRAMES), now.frame, now.number, world, swarm, read(stage, TARGETS))
         cuda.syncthreads()  # what is decided is not kept yet
     return engaged
 
 
 @_device
-def end_step(stage, now, i, clerk):
+def end_step(stage, room, now, i, clerk):
     """All that follows when agents have decided. All threads of a block come here."""
-    agent = i < part(stage, WORLD).agents
+    agent = i < read(stage, WORLD).agents
     when = Step(now.number, now.batch, 0)
     cuda.syncthreads()
-    tally, world, swarm, scratch = part(stage, TALLY), part(stage, WORLD), part(stage, SWARM), part(stage, SCRATCH)
-    look_at_graph(tally, when, world, swarm, scratch, i, agent, clerk)
+    tally, world, swarm, scratch = read(stage, TALLY), read(stage, WORLD), read(stage, SWARM), read(stage, SCRATCH)
+    look_at_graph(tally, when, world, swarm, scratch, room, i, agent, clerk)
     if agent:
         move(stage, now, when, i)
     elif clerk:
@@ -96,39 +96,17 @@ def end_step(stage, now, i, clerk):
 def count_before_move(stage, now, engaged):
     """What is said and counted before the move."""
     when = Step(now.number, now.batch, 0)
-    world, swarm, radio = part(stage, WORLD), part(stage, SWARM), part(stage, RADIO)
+    world, swarm, radio = read(stage, WORLD), read(stage, SWARM), read(stage, RADIO)
     if speaks(radio, when.number):
         send(radio, swarm, when.number)
-    add_before_move(part(stage, TALLY), when, world, swarm, part(stage, TARGETS), part(stage, SCRATCH), engaged)
+    add_before_move(read(stage, TALLY), when, world, swarm, read(stage, TARGETS), read(stage, SCRATCH), engaged)
 
 
 @_device
 def count_linked(stage, now, when):
-    """What is counted when agents have listened, and whom they heard where that is kept."""
-    world, scratch = part(stage, WORLD), part(stage, SCRATCH)
-    add_linked(part(stage, TALLY), when, world, part(stage, SWARM), part(stage, TARGETS), scratch)
-    if now.frame >= 0:
-        keep_links(part(stage, FRAMES), now.frame, scratch.links, 0, world.agents)
-
-
-@_device
-def lane_of(links, i, agents):
-    """The links of listener i alone."""
-    last = i + 1
-    ranked = links.rank.shape[0] > 0
-    return Links(
-        links.square[:, i:last],
-        links.reach[i:last],
-        links.heard[i:last],
-        links.wanted[i:last],
-        links.below[i:last],
-        links.above[i:last],
-        links.low[i:last],
-        links.high[i:last],
-        links.off[i:last],
-        links.rank[:, i:last],
-        links.order[i * agents : last * agents] if ranked else links.order,
-    )
+    """What is counted when agents have listened."""
+    tally, world, swarm = read(stage, TALLY), read(stage, WORLD), read(stage, SWARM)
+    add_linked(tally, when, world, swarm, read(stage, TARGETS), read(stage, SCRATCH))
 
 
 @_device
@@ -137,8 +115,8 @@ def sense(stage, now, i, agent, clerk):
 
     Returns how many agents are on a target.
     """
-    world, swarm, targets = part(stage, WORLD), part(stage, SWARM), part(stage, TARGETS)
-    sea, effects = part(stage, SEA), part(stage, NATURE).effects
+    world, swarm, targets = read(stage, WORLD), read(stage, SWARM), read(stage, TARGETS)
+    sea, effects = read(stage, SEA), read(stage, NATURE).effects
     if world.mortal:
         if clerk:
             update_presence(swarm, world, now.number)
@@ -163,12 +141,12 @@ def sense(stage, now, i, agent, clerk):
 
 
 @_device
-def listen_and_decide(stage, memories, params, now, i):
+def listen_and_decide(stage, room, memories, params, now, i):
     """Agent i finds out whom it hears, sums up their influence, chooses whom to follow and decides.
 
     Arrays of one number are the thread's own: of a length that is known, they are kept in registers.
     """
-    world, swarm, radio, scratch = part(stage, WORLD), part(stage, SWARM), part(stage, RADIO), part(stage, SCRATCH)
+    world, swarm, radio, scratch = read(stage, WORLD), read(stage, SWARM), read(stage, RADIO), read(stage, SCRATCH)
     last = i + 1
     agents, number = world.agents, now.number
     reach, low, high = cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE)
@@ -180,9 +158,14 @@ def listen_and_decide(stage, memories, params, now, i):
     on_target = cuda.local.array(1, numba.boolean)
     x[0], y[0], vx[0], vy[0] = swarm.fix_x[i], swarm.fix_y[i], swarm.vx[i], swarm.vy[i]
     on_target[0], max_speed[0], fleet[0] = swarm.on_target[i], swarm.max_speed[i], swarm.fleet[i]
-    lane = lane_of(scratch.links, i, agents)
-    reach[0] = lane.reach[0]
-    links = Links(lane.square, reach, heard, wanted, below, above, low, high, off, lane.rank, lane.order)
+    others = scratch.links
+    reach[0] = others.reach[i]
+    rows = agents + agents % 2  # of distances; those of the next agent begin after one more, which is in another bank
+    square, rank = column(room[i * (rows + 1) : i * (rows + 1) + rows]), others.rank[:, i:last]
+    order = others.order[i * agents : last * agents] if others.rank.shape[0] > 0 else others.order
+    links = Links(square, reach, heard, wanted, below, above, low, high, off, rank, order, others.silent, others.lists)
+    for j in range(agents, square.shape[0]):
+        square[j, 0] = INFINITE
     reports = said(radio, swarm, number)
     measure_distances(links, reports.x, reports.y, x, y, i, agents)
     range_square = radio.range_square
@@ -201,77 +184,87 @@ def listen_and_decide(stage, memories, params, now, i):
     listeners = Listeners(i, x, y, vx, vy, on_target, max_speed, fleet, world.time_step, number * world.time_step)
     for turn in range(2):
         sum_influence(arrived, listeners, links, params, agents, sums)
-        if turn == 1 or not settle_links(links, world, swarm, radio, part(stage, RUN), number, i):
+        if turn == 1 or not settle_links(links, world, swarm, radio, read(stage, RUN), number, i):
             break
     choose_leaders(arrived, listeners, links, params, agents, leader, links.low)
-    lane.reach[0], lane.heard[0] = reach[0], heard[0]
-    alone = Scratch(links, leader, sums, scratch.a, scratch.b, scratch.c, scratch.d, scratch.sight)
+    others.reach[i], others.heard[i] = reach[0], heard[0]
+    if now.frame >= 0:
+        keep_links(read(stage, FRAMES), now.frame, links, i, agents)
+    a, b, c, d, sight = scratch.a, scratch.b, scratch.c, scratch.d, scratch.sight
+    alone = Scratch(links, leader, sums, a, b, c, d, sight, scratch.hops, scratch.words)
     phases: Any = 0  # there are none on a card
-    parts = Parts(stage, phases, world, swarm, radio, part(stage, TARGETS), alone)
+    parts = Parts(stage, phases, world, swarm, radio, read(stage, TARGETS), alone)
     decide(swarm, parts, arrived, memories, params, now, i)
+    if radio.adaptive:
+        adapt_degree(swarm, radio, links, reports, i, last, world)
 
 
 @_device
 def move(stage, now, when, i):
     """What `shoal.engine.phases.move_agents` does, for agent i, and what it adds to the metrics then."""
-    world, swarm, radio, scratch = part(stage, WORLD), part(stage, SWARM), part(stage, RADIO), part(stage, SCRATCH)
+    world, swarm, scratch = read(stage, WORLD), read(stage, SWARM), read(stage, SCRATCH)
     last = i + 1
     tell(swarm, i, last)
-    if radio.adaptive:
-        links = lane_of(scratch.links, i, world.agents)
-        adapt_degree(swarm, radio, links, said(radio, swarm, now.number), i, last, world)
     if world.inertial:
         limit_maneuver(swarm, i, last, world.time_step)
     limit_speed(swarm.command_x[i:last], swarm.command_y[i:last], swarm.max_speed[i:last], world.divide)
     if world.powered:
         consume(swarm, world, now.number, i, last)
-    go(swarm, part(stage, NATURE).effects, world, i, last)
+    go(swarm, read(stage, NATURE).effects, world, i, last)
     if world.inexact:
         locate(swarm, i, last)
-    add_own(part(stage, TALLY), when, world, swarm, part(stage, TARGETS), scratch, i)
+    add_own(read(stage, TALLY), when, world, swarm, read(stage, TARGETS), scratch, i)
 
 
 @_device
 def conclude(stage, now, when, i, agent, clerk):
     """Targets move, each by a thread, and errors age."""
-    world, swarm, targets = part(stage, WORLD), part(stage, SWARM), part(stage, TARGETS)
-    tracks, sea = part(stage, TRACKS), part(stage, SEA)
+    world, swarm, targets = read(stage, WORLD), read(stage, SWARM), read(stage, TARGETS)
+    tracks, sea = read(stage, TRACKS), read(stage, SEA)
     if agent and world.inexact:
         age_errors(swarm, now.key, i, i + 1)
     for j in range(i, targets.size, cuda.blockDim.x):
         advance_target(targets[j], tracks, swarm, sea, world, now.number + 1, split(now.key, TARGET_STREAM + j))
     if clerk:
-        add_after_move(part(stage, TALLY), when, world, swarm, targets, part(stage, SCRATCH))
+        add_after_move(read(stage, TALLY), when, world, swarm, targets, read(stage, SCRATCH))
 
 
-def make_rollout(at_memories: Any, at_params: Any) -> Any:
+def make_rollout(at_memories: Any, at_params: Any, place: Any, near: bool) -> Any:
     """The kernel that runs steps first..last of every run of a batch, for memories and parameters of two types.
 
     Parameters
     ----------
-    at_memories, at_params : functions of an address that read them there, see placed.py
+    at_memories, at_params : functions of an address that read them there, see compiler/packed.py
+    place : function of a stage's address, see compiler/known.py
+    near : whether all distances of a run fit the memory that a block has for itself; else they are in `far`
     """
 
-    def rollout(stages, memories, params, first, last, every, tail):
+    def rollout(stages, memories, params, far, first, last, every, tail):
         run_number = cuda.blockIdx.x
         i = cuda.threadIdx.x
         clerk = i == cuda.blockDim.x - 1
-        stage = stages[run_number]
-        run = part(stage, RUN)
-        batches = part(stage, TALLY).steps.size
-        room = part(stage, FRAMES).step.size
+        stage = place(stages[run_number])
+        agents = read(stage, WORLD).agents
+        room = cuda.shared.array(0, DOUBLE)  # squared distances, from all to each agent
+        if not near:
+            size = agents * (agents + 2)
+            room = far[run_number * size : (run_number + 1) * size]
+        run = read(stage, RUN)
+        batches = read(stage, TALLY).steps.size
+        frames = read(stage, FRAMES).step.size
         run_key = split(split(run.seed, 0), run.run)
         frame = 0
         for number in range(first, last):
             batch = min(number * batches // run.steps, batches - 1)
-            keeps = room > 0 and (number % every == 0 or number >= tail)
+            keeps = frames > 0 and (number % every == 0 or number >= tail)
             now = Now(number, batch, split(run_key, number), frame if keeps else -1)
             engaged = begin_step(stage, now, i, clerk)
-            if i < part(stage, WORLD).agents:
-                listen_and_decide(stage, at_memories(memories[run_number]), at_params(params[run_number]), now, i)
+            if i < agents:
+                memory, chosen = at_memories(memories[run_number]), at_params(params[run_number])
+                listen_and_decide(stage, room, memory, chosen, now, i)
             elif clerk:
                 count_before_move(stage, now, engaged)
-            end_step(stage, now, i, clerk)
+            end_step(stage, room, now, i, clerk)
             frame += keeps
 
     return rollout
