@@ -39,18 +39,18 @@ _rest_after_move = chained(each.after_move for each in _rest)
 
 
 @_device
-def look_before_move(tally, step, world, swarm, scratch, i, agent, clerk):
-    """Every agent's share of what is counted before the move, into scratch.a and scratch.b. All threads come here."""
-    if clerk:
-        scratch.d[0], scratch.d[1] = mean_velocity(swarm, world.agents)
-    if agent:
-        mark_cells(tally, step, world, swarm, i, i + 1)
-        if step.number % EVERY_CLOSEST == 0:
-            scratch.b[i] = _least_before(swarm, i, tally.closest[0])
-    cuda.syncthreads()
-    if agent:
-        deviate(scratch.a, swarm, scratch.d[0], scratch.d[1], i, i + 1)
-    cuda.syncthreads()
+def note_mean_velocity(scratch, swarm, world):
+    """The mean velocity of all, into scratch.d."""
+    scratch.d[0], scratch.d[1] = mean_velocity(swarm, world.agents)
+
+
+@_device
+def look_before_move(tally, step, world, swarm, scratch, i):
+    """Agent i's share of what is counted before the move, into scratch.a and scratch.b."""
+    mark_cells(tally, step, world, swarm, i, i + 1)
+    if step.number % EVERY_CLOSEST == 0:
+        scratch.b[i] = _least_before(swarm, i, tally.closest[0])
+    deviate(scratch.a, swarm, scratch.d[0], scratch.d[1], i, i + 1)
 
 
 @_device

@@ -4,8 +4,11 @@ Thread i does for agent i what the engine does for all lanes, with the engine's 
 [i, i + 1) of everything. What is not of one agent is the clerk's, the last thread, while agents decide or move: sums of
 metrics, frames; targets move by a thread each. A barrier stands wherever somebody reads what others write.
 
-    agents   sense, shares of metrics | listen, decide       | tell, move, effort and heading | targets, errors |
-    clerk    mean velocity            | sums before the move | links                          | batteries       |
+    agents   sense         | shares of metrics | listen, decide       | move, effort, heading | targets, errors |
+    clerk    mean velocity |                   | sums before the move | links                 | batteries       |
+
+No barrier is called with a condition as its argument: Python may write the end of such a function twice, once for each
+outcome, and threads that wait at two places wait forever.
 """
 
 from typing import Any
@@ -22,9 +25,11 @@ from shoal.engine.gpu.measure import (
     add_own,
     look_at_graph,
     look_before_move,
+    note_mean_velocity,
 )
+from shoal.engine.gpu.nearest import find_reach, measure
 from shoal.engine.listen import Arrived, Listeners, choose_leaders, sum_influence
-from shoal.engine.phases import go, settle_links
+from shoal.engine.phases import settle_links
 from shoal.engine.stage import (
     FRAMES,
     NATURE,
@@ -42,8 +47,8 @@ from shoal.engine.stage import (
 from shoal.engine.step import Now, Parts, decide, tell
 from shoal.metrics.contract import Step
 from shoal.world.energy import consume
-from shoal.world.motion import limit_maneuver, limit_speed
-from shoal.world.neighbors import Links, link_nearest, measure_distances, rank_heard
+from shoal.world.motion import NO_DRIFT, limit_maneuver, limited, moved
+from shoal.world.neighbors import Links, rank_heard
 from shoal.world.position import age_errors, locate
 from shoal.world.presence import update_presence
 from shoal.world.radio import adapt_degree, hide_far_away, limit_links, row, said, send, speaks, spoken
@@ -64,10 +69,12 @@ def begin_step(stage, now, i, clerk):
     Every section reads the parts of the stage that it needs anew: what all need together is more than a thread holds.
     """
     agent = i < read(stage, WORLD).agents
-    engaged = sense(stage, now, i, agent, clerk)
+    on_target = sense(stage, now, i, agent, clerk)
     when = Step(now.number, now.batch, 0)
     tally, world, swarm, scratch = read(stage, TALLY), read(stage, WORLD), read(stage, SWARM), read(stage, SCRATCH)
-    look_before_move(tally, when, world, swarm, scratch, i, agent, clerk)
+    if agent:
+        look_before_move(tally, when, world, swarm, scratch, i)
+    engaged = cuda.syncthreads_count(int(on_target))
     if now.frame >= 0:
         if clerk:
             keep_frame(read(stage, FRAMES), now.frame, now.number, world, swarm, read(stage, TARGETS))
@@ -113,7 +120,7 @@ def count_linked(stage, now, when):
 def sense(stage, now, i, agent, clerk):
     """What `shoal.engine.phases.sense_all` does: who is there, who is on target, and where all believe to be.
 
-    Returns how many agents are on a target.
+    Returns whether this one is on a target. The clerk adds up velocities meanwhile.
     """
     world, swarm, targets = read(stage, WORLD), read(stage, SWARM), read(stage, TARGETS)
     sea, effects = read(stage, SEA), read(stage, NATURE).effects
@@ -121,13 +128,17 @@ def sense(stage, now, i, agent, clerk):
         if clerk:
             update_presence(swarm, world, now.number)
         cuda.syncthreads()
+    if clerk:
+        note_mean_velocity(read(stage, SCRATCH), swarm, world)
+    if targets.size == 0:
+        cuda.syncthreads()
     on_target = False
     for j in range(targets.size):
         sees = False
         if agent and targets[j].present:
             sees = detects(swarm, targets[j], j, effects, sea, world, now.key, i)
         on_target |= sees
-        watchers = cuda.syncthreads_count(1 if sees else 0)
+        watchers = cuda.syncthreads_count(int(sees))
         if clerk:
             targets[j].watchers = watchers
     if agent:
@@ -137,7 +148,7 @@ def sense(stage, now, i, agent, clerk):
             swarm.on_target[i] = believes(swarm, effects, now.key, i)
         if world.inexact:
             locate(swarm, i, i + 1)
-    return cuda.syncthreads_count(1 if on_target else 0)
+    return on_target
 
 
 @_device
@@ -149,8 +160,7 @@ def listen_and_decide(stage, room, memories, params, now, i):
     world, swarm, radio, scratch = read(stage, WORLD), read(stage, SWARM), read(stage, RADIO), read(stage, SCRATCH)
     last = i + 1
     agents, number = world.agents, now.number
-    reach, low, high = cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE)
-    below, above, sums = cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE), cuda.local.array((SUMS, 1), DOUBLE)
+    reach, low, sums = cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE), cuda.local.array((SUMS, 1), DOUBLE)
     heard, wanted = cuda.local.array(1, INTEGER), cuda.local.array(1, INTEGER)
     off, leader = cuda.local.array(1, INTEGER), cuda.local.array(1, INTEGER)
     x, y, vx = cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE)
@@ -159,24 +169,20 @@ def listen_and_decide(stage, room, memories, params, now, i):
     x[0], y[0], vx[0], vy[0] = swarm.fix_x[i], swarm.fix_y[i], swarm.vx[i], swarm.vy[i]
     on_target[0], max_speed[0], fleet[0] = swarm.on_target[i], swarm.max_speed[i], swarm.fleet[i]
     others = scratch.links
-    reach[0] = others.reach[i]
     rows = agents + agents % 2  # of distances; those of the next agent begin after one more, which is in another bank
     square, rank = column(room[i * (rows + 1) : i * (rows + 1) + rows]), others.rank[:, i:last]
     order = others.order[i * agents : last * agents] if others.rank.shape[0] > 0 else others.order
-    links = Links(square, reach, heard, wanted, below, above, low, high, off, rank, order, others.silent, others.lists)
-    for j in range(agents, square.shape[0]):
-        square[j, 0] = INFINITE
+    links = Links(square, reach, heard, wanted, low, low, low, low, off, rank, order, others.silent, others.lists)
     reports = said(radio, swarm, number)
-    measure_distances(links, reports.x, reports.y, x, y, i, agents)
+    measure(square, reports.x, reports.y, x[0], y[0], agents, i)
+    wanted[0] = swarm.neighbors[i]
     range_square = radio.range_square
     if world.inexact:
         hide_far_away(links, swarm, range_square, i, agents)
         range_square = INFINITE
     if radio.limited:
         limit_links(links, swarm, radio, i, agents, number, range_square)
-        link_nearest(links, links.wanted, agents)
-    else:
-        link_nearest(links, swarm.neighbors[i:last], agents)
+    reach[0] = find_reach(square, others.reach[i], wanted[0], agents)
     rank_heard(links, agents)
     then = spoken(radio, number)
     told = memories.told if then == number else memories.arrived[row(radio, then)]
@@ -190,8 +196,11 @@ def listen_and_decide(stage, room, memories, params, now, i):
     others.reach[i], others.heard[i] = reach[0], heard[0]
     if now.frame >= 0:
         keep_links(read(stage, FRAMES), now.frame, links, i, agents)
+    totals = cuda.local.array((SUMS, 1), DOUBLE)  # in memory, so that sums are in registers until they are known
+    for row_of_sums in range(SUMS):
+        totals[row_of_sums, 0] = sums[row_of_sums, 0]
     a, b, c, d, sight = scratch.a, scratch.b, scratch.c, scratch.d, scratch.sight
-    alone = Scratch(links, leader, sums, a, b, c, d, sight, scratch.hops, scratch.words)
+    alone = Scratch(links, leader, totals, a, b, c, d, sight, scratch.hops, scratch.words)
     phases: Any = 0  # there are none on a card
     parts = Parts(stage, phases, world, swarm, radio, read(stage, TARGETS), alone)
     decide(swarm, parts, arrived, memories, params, now, i)
@@ -207,10 +216,12 @@ def move(stage, now, when, i):
     tell(swarm, i, last)
     if world.inertial:
         limit_maneuver(swarm, i, last, world.time_step)
-    limit_speed(swarm.command_x[i:last], swarm.command_y[i:last], swarm.max_speed[i:last], world.divide)
+    x, y = limited(swarm.command_x[i], swarm.command_y[i], swarm.max_speed[i], world.divide)
+    swarm.command_x[i], swarm.command_y[i] = x, y
     if world.powered:
         consume(swarm, world, now.number, i, last)
-    go(swarm, read(stage, NATURE).effects, world, i, last)
+    swarm.x[i], swarm.vx[i] = moved(swarm.x[i], x, NO_DRIFT, world.clamp_x, world.time_step)
+    swarm.y[i], swarm.vy[i] = moved(swarm.y[i], y, NO_DRIFT, world.clamp_y, world.time_step)
     if world.inexact:
         locate(swarm, i, last)
     add_own(read(stage, TALLY), when, world, swarm, read(stage, TARGETS), scratch, i)
