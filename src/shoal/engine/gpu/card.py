@@ -86,7 +86,9 @@ def as_on_the_cpu() -> Iterator[None]:
     """Compile the engine's kernels, without fused multiply-add, which rounds once where the processor rounds twice.
 
     Numba has no option for it; this hands NVVM its own. It then writes mul.rn and add.rn, which nothing later fuses.
-    Kernels are stand-ins (compiler/late.py), which numba-cuda does not know: it is handed what they stand for.
+    Kernels are stand-ins (compiler/late.py), which numba-cuda does not know: it is handed what they stand for. None of
+    them counts from the end of an array, so that no index is asked whether it is negative: that would be a third of
+    all instructions.
 
     Raises
     ------
@@ -95,12 +97,15 @@ def as_on_the_cpu() -> Iterator[None]:
     if simulated():
         yield
         return
+    from numba import types
     from numba.cuda import target as typing
     from numba.cuda.cudadrv import nvvm as module
+    from numba.cuda.np import arrayobj as indexing
 
     nvvm: Any = module
+    arrays: Any = indexing
     context: Any = typing.CUDATypingContext
-    compile_ir, resolve = nvvm.compile_ir, context.resolve_value_type
+    compile_ir, resolve, fix_index = nvvm.compile_ir, context.resolve_value_type, arrays.fix_integer_index
 
     def without_fma(code: Any, **options: Any) -> Any:
         return compile_ir(code, **{**options, "fma": False})
@@ -108,7 +113,10 @@ def as_on_the_cpu() -> Iterator[None]:
     def resolve_kernels(self: Any, value: Any) -> Any:
         return resolve(self, value.dispatcher if isinstance(value, Kernel) else value)
 
-    nvvm.compile_ir, context.resolve_value_type = without_fma, resolve_kernels
+    def keep_index(context: Any, builder: Any, kind: Any, index: Any, size: Any) -> Any:
+        return context.cast(builder, index, kind, types.intp)
+
+    nvvm.compile_ir, context.resolve_value_type, arrays.fix_integer_index = without_fma, resolve_kernels, keep_index
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of launches of few runs, which cannot fill a card
@@ -118,4 +126,4 @@ def as_on_the_cpu() -> Iterator[None]:
             "--device cuda", f"cannot compile this: {reason_in(str(error))}", "leave --device out"
         ) from error
     finally:
-        nvvm.compile_ir, context.resolve_value_type = compile_ir, resolve
+        nvvm.compile_ir, context.resolve_value_type, arrays.fix_integer_index = compile_ir, resolve, fix_index

@@ -17,7 +17,7 @@ from shoal.metrics.graph import EVERY as EVERY_GRAPH
 from shoal.metrics.graph import add_graph, join
 from shoal.metrics.heading_bearing import any_present, bin_of, correlate, is_stationary
 from shoal.metrics.time_on_target import count_step
-from shoal.metrics.velocity_fluctuation import add_deviations, deviate, mean_velocity
+from shoal.metrics.velocity_fluctuation import deviate
 
 cuda: Any = numba.cuda  # it has no types that mypy sees
 _device: Any = cuda.jit(device=True)
@@ -40,8 +40,33 @@ _rest_after_move = chained(each.after_move for each in _rest)
 
 @_device
 def note_mean_velocity(scratch, swarm, world):
-    """The mean velocity of all, into scratch.d."""
-    scratch.d[0], scratch.d[1] = mean_velocity(swarm, world.agents)
+    """The mean velocity of all who are there, into scratch.d."""
+    x, y, there = 0.0, 0.0, 0
+    vx, vy, alive = swarm.vx, swarm.vy, swarm.alive
+    j = 0
+    while j < world.agents:
+        x += vx[j]
+        y += vy[j]
+        there += 1 if not world.mortal or alive[j] > 0.0 else 0
+        j += 1
+    scratch.d[0], scratch.d[1] = x / max(there, 1), y / max(there, 1)
+
+
+@_device
+def _add_deviations(tally, step, world, swarm, size):
+    """Add |u_i| of every agent, in order, by fleet."""
+    alive = swarm.alive
+    j = 0
+    fleet = 0
+    while fleet < swarm.fleet_end.size:
+        total, there, end = 0.0, 0, swarm.fleet_end[fleet]
+        while j < end:
+            total += size[j]
+            there += 1 if not world.mortal or alive[j] > 0.0 else 0
+            j += 1
+        tally.agent_steps[step.batch, fleet] += there
+        tally.fluctuation[step.batch, fleet] += total
+        fleet += 1
 
 
 @_device
@@ -57,7 +82,7 @@ def look_before_move(tally, step, world, swarm, scratch, i):
 def add_before_move(tally, step, world, swarm, targets, scratch, engaged):
     """The clerk's part: the sums."""
     count_step(tally, step, targets, engaged)
-    add_deviations(tally, step, swarm, scratch.a)
+    _add_deviations(tally, step, world, swarm, scratch.a)
     count_cells(tally, step)
     if step.number % EVERY_CLOSEST == 0:
         least = tally.closest[0]

@@ -1,4 +1,7 @@
-"""The k nearest of one agent, by the thread that decides for it: what world/neighbors.py does for all lanes at once."""
+"""The k nearest of one agent, by the thread that decides for it: what world/neighbors.py does for all lanes at once.
+
+Loops on a card count by themselves: numba's `range` costs as much there as what such a loop does.
+"""
 
 from typing import Any
 
@@ -13,12 +16,14 @@ _ROUNDS = 20
 
 @_device
 def measure(square, x, y, own_x, own_y, agents, i):
-    """Fill the squared distances (R, 1) from agent i to all; nobody is in rows that are there for an even number."""
-    for j in range(agents):
+    """Fill the squared distances (R, 1) from agent i to all; nobody is in a row that is there for an even number."""
+    j = 0
+    while j < agents:
         dx = own_x - x[j]
         dy = own_y - y[j]
         square[j, 0] = dx * dx + dy * dy
-    for j in range(agents, square.shape[0]):
+        j += 1
+    if j < square.shape[0]:
         square[j, 0] = float("inf")
     square[i, 0] = float("inf")
 
@@ -29,19 +34,23 @@ def find_reach(square, reach, k, agents):
     if k >= agents - 1:
         return FARTHEST
     missing = k - _count(square, reach, agents)
-    for _ in range(_ROUNDS):
-        if abs(missing) <= _FEW:
-            break
+    attempt = 0
+    while attempt < _ROUNDS and abs(missing) > _FEW:
         reach *= (k + 0.5) / (k - missing + 0.5)  # counts grow like the square of the distance
         missing = k - _count(square, reach, agents)
+        attempt += 1
     sign = 1.0 if missing > 0 else -1.0  # step to the next one beyond, or from the last one within: one loop for both
-    for _ in range(abs(missing)):
+    steps = abs(missing)
+    while steps > 0:
         first = reach * _ABOVE if missing > 0 else -reach
         found = FARTHEST
-        for j in range(agents):
+        j = 0
+        while j < agents:
             d = sign * square[j, 0]
             found = d if d >= first and d < found else found
+            j += 1
         reach = found if missing > 0 else -found * _BELOW
+        steps -= 1
     return reach
 
 
@@ -49,6 +58,8 @@ def find_reach(square, reach, k, agents):
 def _count(square, reach, agents):
     """How many are within reach."""
     count = 0
-    for j in range(agents):
+    j = 0
+    while j < agents:
         count += 1 if square[j, 0] <= reach else 0
+        j += 1
     return count

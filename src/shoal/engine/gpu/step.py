@@ -18,6 +18,7 @@ import numba.cuda
 from shoal.compiler.known import column, read
 from shoal.core.draws import TARGET_STREAM, split
 from shoal.engine.frames import keep_frame, keep_links
+from shoal.engine.gpu.hear import add_up, choose
 from shoal.engine.gpu.measure import (
     add_after_move,
     add_before_move,
@@ -28,7 +29,7 @@ from shoal.engine.gpu.measure import (
     note_mean_velocity,
 )
 from shoal.engine.gpu.nearest import find_reach, measure
-from shoal.engine.listen import Arrived, Listeners, choose_leaders, sum_influence
+from shoal.engine.listen import Arrived, Listeners
 from shoal.engine.phases import settle_links
 from shoal.engine.stage import (
     FRAMES,
@@ -189,10 +190,10 @@ def listen_and_decide(stage, room, memories, params, now, i):
     arrived = Arrived(reports, told, then * world.time_step)
     listeners = Listeners(i, x, y, vx, vy, on_target, max_speed, fleet, world.time_step, number * world.time_step)
     for turn in range(2):
-        sum_influence(arrived, listeners, links, params, agents, sums)
+        heard[0] = add_up(arrived, listeners, links, params, agents, sums)
         if turn == 1 or not settle_links(links, world, swarm, radio, read(stage, RUN), number, i):
             break
-    choose_leaders(arrived, listeners, links, params, agents, leader, links.low)
+    leader[0] = choose(arrived, listeners, links, params, agents)
     others.reach[i], others.heard[i] = reach[0], heard[0]
     if now.frame >= 0:
         keep_links(read(stage, FRAMES), now.frame, links, i, agents)
@@ -234,8 +235,10 @@ def conclude(stage, now, when, i, agent, clerk):
     tracks, sea = read(stage, TRACKS), read(stage, SEA)
     if agent and world.inexact:
         age_errors(swarm, now.key, i, i + 1)
-    for j in range(i, targets.size, cuda.blockDim.x):
+    j = i
+    while j < targets.size:
         advance_target(targets[j], tracks, swarm, sea, world, now.number + 1, split(now.key, TARGET_STREAM + j))
+        j += cuda.blockDim.x
     if clerk:
         add_after_move(read(stage, TALLY), when, world, swarm, targets, read(stage, SCRATCH))
 
@@ -265,8 +268,10 @@ def make_rollout(at_memories: Any, at_params: Any, place: Any, near: bool) -> An
         frames = read(stage, FRAMES).step.size
         run_key = split(split(run.seed, 0), run.run)
         frame = 0
+        batch = first * batches // run.steps
         for number in range(first, last):
-            batch = min(number * batches // run.steps, batches - 1)
+            if number * batches >= (batch + 1) * run.steps and batch < batches - 1:
+                batch += 1
             keeps = frames > 0 and (number % every == 0 or number >= tail)
             now = Now(number, batch, split(run_key, number), frame if keeps else -1)
             engaged = begin_step(stage, now, i, clerk)
