@@ -1,7 +1,7 @@
 """Runs on a real graphics card: the same bits as on the processor? and how fast? One table.
 
     python benchmarks/device_check.py              all of it; under four minutes with 16 cores and one H100
-    python benchmarks/device_check.py --short      no whole paper, and the paper's strategy alone
+    python benchmarks/device_check.py --short      no whole paper, and the paper's run alone
 
 Needs numba-cuda and a card; docs/how-to/gpu.md keeps the last output.
 """
@@ -14,7 +14,9 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from itertools import product
 from typing import Any
 
@@ -107,22 +109,19 @@ def speed(steps: int, replicates: int) -> str:
     )
 
 
-def launches(registers: int, metrics: bool, steps: int = 500) -> str:
-    """Time the launches alone of 960 runs, with so many registers per thread, with metrics or without."""
-    from shoal.engine.gpu import card, step
+def launches(steps: int = 2_000) -> str:
+    """Time the launches alone of the paper's runs, without metrics."""
+    from shoal.engine.gpu import step
 
-    card.REGISTERS = registers
-    if not metrics:
-        for name in ("look_before_move", "add_before_move", "look_at_graph", "add_linked", "add_own", "add_after_move"):
-            setattr(step, name, _count_nothing)
+    for name in ("note_mean_velocity", "look_before_move", "add_before_move", "look_at_graph", "add_linked", "add_own"):
+        setattr(step, name, _count_nothing)
+    step.add_after_move = _count_nothing
     batch = Batch([Work(*each.work()) for each in paper(steps, 10)])
     batch.advance(0, 50, NEVER, NEVER)  # compiles
-    with open(os.path.join(tempfile.gettempdir(), "shoal-device-check"), "w") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)  # one at a time on the card
+    with alone():
         begun = time.perf_counter()
         batch.advance(50, steps, NEVER, NEVER)
-        seconds = time.perf_counter() - begun
-    per_step = seconds / (steps - 50)
+        per_step = (time.perf_counter() - begun) / (steps - 50)
     return f"{per_step * 1e6:.1f} us per step of 960 runs; the whole paper would take {per_step * 100_000:.1f} s"
 
 
@@ -131,8 +130,12 @@ def _count_nothing(*arguments):  # type: ignore[no-untyped-def]
     """In place of metrics."""
 
 
-PROBES = {f"{number} registers": (number, True) for number in (96, 128, 168, 255)}
-PROBES["no metrics, 128 registers"] = 128, False
+@contextmanager
+def alone() -> Iterator[None]:
+    """One process at a time on the card, so that times are times."""
+    with open(os.path.join(tempfile.gettempdir(), "shoal-device-check"), "w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
 
 
 def row(what: str, result: str) -> None:
@@ -140,33 +143,26 @@ def row(what: str, result: str) -> None:
     print(f"| {what} | {result} |", flush=True)
 
 
-def apart(option: str, name: str) -> str:
-    """Compare a strategy or time a probe in a process of its own: each is compiled."""
+def apart(what: str, option: str, name: str) -> tuple[str, str]:
+    """A row that is made in a process of its own: each compiles a kernel."""
     code = [sys.executable, __file__, option, name]
-    found = subprocess.run(code, capture_output=True, text=True, timeout=240, check=False)
+    found = subprocess.run(code, capture_output=True, text=True, timeout=300, check=False)
     lines = found.stdout.strip().splitlines()
-    return lines[-1] if lines and found.returncode == 0 else f"failed: {found.stderr.strip().splitlines()[-1:]}"
-
-
-def apart_all(option: str, names: list[str], what: str) -> None:
-    """The same for each of these, all at once."""
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for name, result in zip(names, pool.map(lambda name: apart(option, name), names), strict=True):
-            row(f"{what}: {name}", result)
+    done = lines and found.returncode == 0
+    return what, lines[-1] if done else f"failed: {found.stderr.strip().splitlines()[-1:]}"
 
 
 def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--strategy")
-    parser.add_argument("--probe")
+    parser.add_argument("--case")
     parser.add_argument("--short", action="store_true")
     chosen = parser.parse_args()
-    if chosen.probe:
-        print(launches(*PROBES[chosen.probe]))
+    if chosen.case == "no metrics":
+        print(launches())
         return
-    if chosen.strategy:
-        print(compare(runs=2, strategy=chosen.strategy))
+    if chosen.case:
+        print(compare(runs=2, **CASES.get(chosen.case, {"strategy": chosen.case})))
         return
     import numba_cuda
 
@@ -181,17 +177,16 @@ def main() -> None:
     row("same as on the processor: the paper's run", compare())
     row("compiled for the card, and that", f"{time.perf_counter() - begun:.1f} s")
     row("speed, 960 runs", speed(2_000, 10))
-    if not chosen.short:
-        row("speed, the whole paper", speed(100_000, 10))
-        apart_all("--probe", list(PROBES), "launches alone")
-    for name, changes in list(CASES.items())[1:]:
-        try:
-            row(f"same as on the processor: {name}", compare(**changes))
-        except Exception as failure:  # the table goes on
-            row(f"same as on the processor: {name}", f"failed: {failure!r:.200}")
-    if not chosen.short:
-        others = [name for name in sorted(CATALOGUE) if name != "knn-pso"]
-        apart_all("--strategy", others, "same as on the processor")
+    if chosen.short:
+        return
+    row("speed, the whole paper", speed(100_000, 10))
+    same = "same as on the processor"
+    others = [("without metrics, launches alone", "no metrics")]
+    others += [(f"{same}: {name}", name) for name in list(CASES)[1:]]
+    others += [(f"{same}: {name}", name) for name in sorted(CATALOGUE) if name != "knn-pso"]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        for found in pool.map(lambda each: apart(each[0], "--case", each[1]), others):
+            row(*found)
 
 
 if __name__ == "__main__":

@@ -40,7 +40,8 @@ def read(stage: Any, field: int) -> Any:
 def with_aligned_records(kind: Any) -> Any:
     """The same type, where fields of records are read whole: else a card reads eight bytes one by one."""
     if isinstance(kind, types.BaseTuple):
-        return types.BaseTuple.from_types([with_aligned_records(each) for each in kind], _class_of(kind))
+        parts: Any = kind
+        return types.BaseTuple.from_types([with_aligned_records(each) for each in parts], _class_of(kind))
     if isinstance(kind, types.Array) and isinstance(kind.dtype, types.Record):
         fields: Iterable[Any] = kind.dtype.fields.items()
         record = types.Record([(name, each._asdict()) for name, each in fields], kind.dtype.size, True)

@@ -74,7 +74,7 @@ class Batch:
 
 def facts(world: Any, radio: Any) -> tuple[Fact, ...]:
     """What is not there in a run, and so need not be compiled: all that is on or off, and a radio that does nothing."""
-    found = [(WORLD, name, value) for name, value in world._asdict().items() if isinstance(value, bool)]
+    found: list[Fact] = [(WORLD, name, value) for name, value in world._asdict().items() if isinstance(value, bool)]
     found += [(RADIO, name, value) for name, value in radio._asdict().items() if isinstance(value, bool)]
     found += [(RADIO, name, value) for name, value in _QUIET.items() if getattr(radio, name) == value]
     return tuple(found)
