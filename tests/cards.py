@@ -9,7 +9,7 @@ import sys
 
 import numpy as np
 
-from shoal.compiler.placed import part
+from shoal.compiler.known import column, place_of, read
 from shoal.core.agents import Memories
 from shoal.engine.stage import SWARM, WORLD, model_stage
 from shoal.run.simulate import simulate
@@ -73,7 +73,7 @@ def records():
 
 
 def memory():
-    """What compiled code reads and writes in an arena, of three groups."""
+    """What compiled code reads and writes in an arena, of three groups, if it is said that all of them are coastal."""
     import numba
 
     from shoal.compiler.packed import reader
@@ -92,18 +92,18 @@ def memory():
         memories = Memories(*(array.view(fields).reshape(array.shape[:-1]) for array in seen))
         groups.append((stage, memories, params._replace(delta=0.25 * number)))
     arena = Arena(groups)
-    at_memories, at_params = reader(groups[0][1]), reader(groups[0][2])
+    at_memories, at_params, place = reader(groups[0][1]), reader(groups[0][2]), place_of(((WORLD, "coastal", True),))
 
     @numba.njit
     def look(stage, memories, params):
-        swarm, world = part(stage, SWARM), part(stage, WORLD)
-        swarm.vx[0] = 2.0 * swarm.fix_x[1]  # where fix_x is x itself
+        swarm, world = read(place(stage), SWARM), read(place(stage), WORLD)
+        swarm.vx[0] = 2.0 * column(swarm.fix_x)[1, 0]  # where fix_x is x itself
         at_memories(memories).memory[0].a += 1.0
         return world.time_step, world.coastal, at_params(params).delta
 
-    read = [[float(each) for each in look(*addresses)] for addresses in arena.addresses]
+    seen = [[float(each) for each in look(*addresses)] for addresses in arena.addresses]
     arena.fetch()
-    return {"read": read, "written": [[float(g[0].swarm.vx[0]), float(g[0].swarm.memory[0, 0])] for g in groups]}
+    return {"read": seen, "written": [[float(g[0].swarm.vx[0]), float(g[0].swarm.memory[0, 0])] for g in groups]}
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """Runs on a graphics card, which numba simulates: the same bits as on the processor, and what is refused."""
 
+import ast
 import json
 import os
 import subprocess
@@ -63,8 +64,20 @@ def test_records_and_sweeps_are_the_same_but_for_the_device():
 
 def test_compiled_code_finds_its_arrays_in_an_arena():
     found = simulated("memory", compiling=True)
-    assert found["read"] == [[0.0, 0.0, 0.0], [0.5, 1.0, 0.25], [1.0, 0.0, 0.5]]
+    assert found["read"] == [[0.0, 1.0, 0.0], [0.5, 1.0, 0.25], [1.0, 1.0, 0.5]]
     assert found["written"] == [[2.0, 101.0], [4.0, 102.0], [6.0, 103.0]]
+
+
+def test_no_barrier_is_written_twice():
+    """Python may copy the end of a function for each outcome of a condition: two barriers, none of which opens."""
+    for file in sorted(Path(shoal.__file__).parent.glob("engine/gpu/*.py")):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            barriers = [each for each in ast.walk(node) if "syncthreads" in getattr(each, "attr", "")]
+            if isinstance(node, ast.Return | ast.IfExp | ast.BoolOp):
+                assert not barriers, f"{file.name}:{node.lineno}"
+            if isinstance(node, ast.Call) and "syncthreads" in getattr(node.func, "attr", ""):
+                conditions = [each for each in ast.walk(node) if isinstance(each, ast.IfExp | ast.BoolOp)]
+                assert not conditions, f"{file.name}:{node.lineno}"
 
 
 @pytest.mark.parametrize(

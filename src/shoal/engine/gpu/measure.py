@@ -107,13 +107,13 @@ def _least_before(swarm, i, least):
 
 
 @_device
-def look_at_graph(tally, step, world, swarm, scratch, room, i, agent, clerk):
+def look_at_graph(tally, step, world, swarm, scratch, room, i):
     """The network as a graph, where it is looked at. All threads come here."""
     if step.number % EVERY_GRAPH == 0:
-        if agent:
+        if i < world.agents:
             scratch.a[i] = _clustering_of(room, scratch.links.reach, swarm.alive, world.agents, i)
         cuda.syncthreads()
-        if clerk:
+        if i == cuda.blockDim.x - 1:
             _add_graph(tally, step, world, swarm, scratch, room)
         cuda.syncthreads()
 

@@ -90,7 +90,7 @@ def end_step(stage, room, now, i, clerk):
     when = Step(now.number, now.batch, 0)
     cuda.syncthreads()
     tally, world, swarm, scratch = read(stage, TALLY), read(stage, WORLD), read(stage, SWARM), read(stage, SCRATCH)
-    look_at_graph(tally, when, world, swarm, scratch, room, i, agent, clerk)
+    look_at_graph(tally, when, world, swarm, scratch, room, i)
     if agent:
         move(stage, now, when, i)
     elif clerk:
