@@ -29,7 +29,7 @@ def measured(linked, alive=None):
     world = model_stage().world._replace(agents=n, fleets=1, time_step=0.1)
     tally = new_tally(steps=1, batches=1, fleets=1, agents=n, targets=1)
     there = np.ones(n) if alive is None else np.asarray(alive, float)
-    scratch = model_stage().scratch._replace(links=links, leader=np.zeros(n, np.int64))
+    scratch = model_stage().scratch._replace(links=links, leader=np.zeros(n, np.int64), a=np.zeros(n))
     swarm = new_swarm([n], ())
     swarm.alive[:n] = there
     tally_graph(tally, Step(0, 0, 0), world, swarm, None, scratch)

@@ -1,7 +1,7 @@
 """shoal reproduce: a paper's figures and claims from our own runs."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
@@ -24,6 +24,7 @@ def reproduce(
     readings: Annotated[bool, Parameter(negative=())] = False,
     out: Path | None = None,
     jobs: MaybeInteger = None,
+    device: Literal["cpu", "cuda"] = "cpu",
 ) -> None:
     """Run a paper's experiments, test its claims, and write a report; the same command again resumes.
 
@@ -39,6 +40,8 @@ def reproduce(
         Folder of the report and of all runs; default reproduction-PAPER, then -readings, -quick with these options.
     jobs
         Threads, one run each; default one per core.
+    device
+        Where runs happen: the processor's cores (cpu), or a graphics card (cuda), all at once; see docs/how-to/gpu.md.
     """
     from shoal.cli.options import check_positive
     from shoal.paper.reproduce import reproduce as run_all
@@ -46,7 +49,7 @@ def reproduce(
     check_positive(jobs=jobs)
     folder = out or Path(f"reproduction-{paper}{'-readings' if readings else ''}{'-quick' if quick else ''}")
     with sweep_progress(folder) as report:
-        found = run_all(paper, folder, quick=quick, readings=readings, jobs=jobs, report=report)
+        found = run_all(paper, folder, quick=quick, readings=readings, jobs=jobs, device=device, report=report)
     failed = [row for row in (*found.main, *found.refit, *found.sensitivity) if row["status"] == "failed"]
     if failed:
         note(f"{len(failed)} runs failed, the first: {failed[0]['error']}\n  fix: correct it, then repeat the command")

@@ -25,6 +25,7 @@ def run(
     seed: MaybeInteger = None,
     runs: Integer = 1,
     jobs: MaybeInteger = None,
+    device: Literal["cpu", "cuda"] = "cpu",
     strategy: str | None = None,
     target_track: str | None = None,
     track_id: str | None = None,
@@ -58,6 +59,8 @@ def run(
         Independent replicates; with 2 or more, intervals are over them.
     jobs
         Threads, one run each; default one per core.
+    device
+        Where runs happen: the processor's cores (cpu), or a graphics card (cuda), all at once; see docs/how-to/gpu.md.
     strategy
         A strategy's name (see `shoal strategies`) or a Python file that defines one.
     target_track
@@ -98,7 +101,7 @@ def run(
         note(f"k is {chosen.network.neighbors} instead of {asked}: {chosen.agents} agents have no more neighbors")
     tell_of_compiling(chosen)
     with progress_bar(f"{chosen.name}, {runs} x {chosen.steps:,} steps") as progress:
-        record = simulate(chosen, runs=runs, jobs=jobs, every=every, out=out, progress=progress)
+        record = simulate(chosen, runs=runs, jobs=jobs, device=device, every=every, out=out, progress=progress)
     for each in record.provenance["notes"]:
         note(each)
     if out:

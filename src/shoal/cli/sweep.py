@@ -23,6 +23,7 @@ def sweep(
     vary: Annotated[list[str] | None, Parameter(negative=(), consume_multiple=False)] = None,
     runs: MaybeInteger = None,
     jobs: MaybeInteger = None,
+    device: Literal["cpu", "cuda"] = "cpu",
     executor: Literal["local", "dask"] = "local",
     scheduler: str | None = None,
     steps: MaybeSteps = None,
@@ -49,6 +50,8 @@ def sweep(
         Replicates of each combination; default 5. Run r shares its chance in all of them (see --independent).
     jobs
         Threads, or Dask workers; default one per core.
+    device
+        Where runs happen: the processor's cores (cpu), or a graphics card (cuda), all at once; see docs/how-to/gpu.md.
     executor
         Where runs happen: threads here, or Dask.
     scheduler
@@ -74,15 +77,19 @@ def sweep(
     from shoal.cli.options import as_options, check_asked, check_positive, given_changes
     from shoal.core.errors import ScenarioError
     from shoal.experiments.cells import make_cells
-    from shoal.experiments.executors import in_threads, on_dask
+    from shoal.experiments.executors import on_dask
+    from shoal.experiments.on_card import executor_on
     from shoal.experiments.results import seal
     from shoal.experiments.sweep import Stop, probe
     from shoal.experiments.sweep import sweep as run_sweep
+    from shoal.run.on_card import check_device
 
     design = _design(scenario, vary or [], runs)
     check_positive(runs=design.runs, jobs=jobs, max_runs=max_runs, until_ci=until_ci)
     if scheduler and executor != "dask":
         raise ScenarioError("--scheduler", "is of Dask", "add --executor dask, or leave it out")
+    if device == "cuda" and executor == "dask":
+        raise ScenarioError("--device cuda", "is a card of this machine, not of Dask's", "leave out one of the two")
     options = [(f"--{name}", name) for name, value in (("steps", steps), ("seed", seed)) if value is not None]
     varied = as_options("--vary", vary or []) or [(f"{scenario} {field}", field) for field in design.fields]
     check_asked(design.scenario, [*options, *as_options("--set", assignments or []), *varied])
@@ -99,7 +106,8 @@ def sweep(
         return
     if out is None:
         raise ScenarioError("--out", "is missing", "name the folder of the store: --out DIR")
-    execute = on_dask(scheduler, jobs) if executor == "dask" else in_threads(jobs)
+    check_device(device, [cell.scenario for cell in cells])
+    execute = on_dask(scheduler, jobs) if executor == "dask" else executor_on(device, jobs)
     with sweep_progress(out) as report:
         rows = run_sweep(
             design,

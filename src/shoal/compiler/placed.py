@@ -64,7 +64,7 @@ class Placed:
             _refuse_other_types(stage)
             self.room = np.zeros(_size(), np.uint8)
             self.address = self.room.ctypes.data
-            _put(stage, _layout(), self.room)
+            put(stage, _layout(), self.room)
 
 
 def part(stage: Any, field: int) -> Any:
@@ -73,7 +73,8 @@ def part(stage: Any, field: int) -> Any:
 
 
 @cache
-def _type() -> Any:
+def stage_type() -> Any:
+    """The type that all stages have."""
     return typeof(_MODEL[0]())
 
 
@@ -110,11 +111,11 @@ def _word(dtype: Any) -> str:
     return str(dtype)
 
 
-def _put(value: Any, where: Any, room: Any) -> None:
+def put(value: Any, where: Any, room: Any) -> None:
     """Write a value to its place in a room, as kernels read it: of arrays, what numba's array structure says."""
     if isinstance(value, tuple):
         for each, place in zip(value, where, strict=True):
-            _put(each, place, room)
+            put(each, place, room)
     elif isinstance(value, np.ndarray):
         address = value.ctypes.data
         form = f"=2Q2qQ{2 * value.ndim}q"
@@ -126,7 +127,17 @@ def _put(value: Any, where: Any, room: Any) -> None:
 
 @cache
 def _layout() -> Any:
-    """Where in the block each number and array is: offsets in nested lists, one per NamedTuple."""
+    return layout(stage_type())
+
+
+@cache
+def _size() -> int:
+    return size_of(stage_type())
+
+
+@cache
+def layout(whole_kind: Any) -> Any:
+    """Where in a block each number and array of a NamedTuple's type is: offsets in nested lists, one per NamedTuple."""
     target = cpu_target.target_context
     data = target.codegen().target_data
 
@@ -140,13 +151,14 @@ def _layout() -> Any:
         laid = whole._get_ll_global_value_type(data)  # once: `whole.get_element_offset` parses it for every field
         return [offsets(each, start + data.get_element_offset(laid, place)) for place, each in enumerate(kind)]
 
-    return offsets(_type(), 0)
+    return offsets(whole_kind, 0)
 
 
 @cache
-def _size() -> int:
+def size_of(kind: Any) -> int:
+    """Bytes of a value of a type in memory."""
     target = cpu_target.target_context
-    return int(target.get_abi_sizeof(target.get_data_type(_type())))
+    return int(target.get_abi_sizeof(target.get_data_type(kind)))
 
 
 _TUPLE: Any = types.BaseTuple  # NamedTuples, too
@@ -155,23 +167,23 @@ _TUPLE: Any = types.BaseTuple  # NamedTuples, too
 @type_callable(part)
 def _type_of_part(context):
     def typer(stage, field):
-        return _type()[field.literal_value] if isinstance(field, types.IntegerLiteral) else None
+        return stage_type()[field.literal_value] if isinstance(field, types.IntegerLiteral) else None
 
     return typer
 
 
 @lower_builtin(part, types.Integer, types.IntegerLiteral)
 def _load(context, builder, signature, arguments):
-    place, stage = signature.args[1].literal_value, _type()
+    place, stage = signature.args[1].literal_value, stage_type()
     pointer = builder.inttoptr(arguments[0], context.get_data_type(stage).as_pointer())
-    return _unowned(context, builder, stage[place], cgutils.gep_inbounds(builder, pointer, 0, place))
+    return unowned(context, builder, stage[place], cgutils.gep_inbounds(builder, pointer, 0, place))
 
 
-def _unowned(context: Any, builder: Any, kind: Any, pointer: Any) -> Any:
+def unowned(context: Any, builder: Any, kind: Any, pointer: Any) -> Any:
     """The value at a pointer, with arrays that nobody counts references to: their owner is set to nobody (null)."""
     if isinstance(kind, _TUPLE):
         parts = [
-            _unowned(context, builder, each, cgutils.gep_inbounds(builder, pointer, 0, place))
+            unowned(context, builder, each, cgutils.gep_inbounds(builder, pointer, 0, place))
             for place, each in enumerate(kind)
         ]
         return context.make_tuple(builder, kind, parts)

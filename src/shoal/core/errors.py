@@ -57,6 +57,10 @@ class FleetError(ShoalError):
     """A fleet of buoys that cannot start or go on."""
 
 
+class DeviceError(ShoalError):
+    """A graphics card that is not there, or cannot do what is asked."""
+
+
 class MissingExtraError(ShoalError):
     """An optional library is needed and absent."""
 

@@ -31,7 +31,7 @@ def _together(kernels):
     return together
 
 
-def _chained(kernels: Iterable[Kernel | None]) -> Kernel:
+def chained(kernels: Iterable[Kernel | None]) -> Kernel:
     """The kernel that runs all of these, in order."""
     whole = [kernel(each) for each in kernels if each]
     while len(whole) > 1:
@@ -39,6 +39,6 @@ def _chained(kernels: Iterable[Kernel | None]) -> Kernel:
     return whole[0] if whole else _nothing
 
 
-measure_before_move = _chained(each.before_move for each in MEASUREMENTS)
-measure_links = _chained(each.linked for each in MEASUREMENTS)
-measure_after_move = _chained(each.after_move for each in MEASUREMENTS)
+measure_before_move = chained(each.before_move for each in MEASUREMENTS)
+measure_links = chained(each.linked for each in MEASUREMENTS)
+measure_after_move = chained(each.after_move for each in MEASUREMENTS)

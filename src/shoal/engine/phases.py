@@ -239,7 +239,7 @@ def move_targets(stage, number, first, batch, key):
     world = part(stage, WORLD)
     swarm = part(stage, SWARM)
     if world.inexact:
-        age_errors(swarm, world, key)
+        age_errors(swarm, key, 0, world.agents)
     targets = part(stage, TARGETS)
     tracks = part(stage, TRACKS)
     sea = part(stage, SEA)

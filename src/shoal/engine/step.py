@@ -53,6 +53,7 @@ def step(parts, memories, params, now):
         if now.frame >= 0:
             enter(phases.record_links, parts.stage, now.number, first, now.frame, now.key)
         decide(parts.swarm, parts, arrived, memories, params, now, first)  # v_pso (Eq. 2) + v_rep: the strategy's
+        tell(parts.swarm, first, min(first + together, world.agents))
         run(phases.move, parts, now, first)  # limited to the top speed, then Eq. 3
     run(phases.measure, parts, now, 0)  # Eq. 8
     run(phases.move_targets, parts, now, 0)
@@ -90,7 +91,7 @@ def listen(parts, arrived, params, now, first):
 
 @kernel
 def decide(swarm, parts, arrived, memories, params, now, first):
-    """Every agent there, from `first` on, asks its strategy for the velocity it wants and updates what it tells.
+    """Every agent there, from `first` on, asks its strategy for the velocity it wants and updates what it remembers.
 
     `swarm` is parts.swarm: what is written to must be near, see compiler/kernel.py.
     """
@@ -122,7 +123,6 @@ def decide(swarm, parts, arrived, memories, params, now, first):
         vx, vy = contract.decide(me, heard, memories.memory[i], params, split(now.key, i))
         swarm.command_x[i] = vx
         swarm.command_y[i] = vy
-    tell(swarm, first, last)
 
 
 @kernel

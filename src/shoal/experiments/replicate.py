@@ -31,8 +31,13 @@ def replicate(scenario: Scenario, run: int, stop: threading.Event | None = None)
     except Stopped:
         raise
     except Exception as failure:  # whatever a user's strategy does, the night's work goes on
-        return failed_row(str(failure) if isinstance(failure, ShoalError) else repr(failure), started)
+        return failed_row(reason_of(failure), started)
     return {"status": "done", "error": "", **numbers, "started": started, "seconds": time.perf_counter() - begun}
+
+
+def reason_of(failure: Exception) -> str:
+    """What a row says of a run that failed."""
+    return str(failure) if isinstance(failure, ShoalError) else repr(failure)
 
 
 def replicate_table(table: dict[str, Any], run: int) -> Row:
@@ -47,6 +52,12 @@ def _numbers(scenario: Scenario, run: int, stop: threading.Event | None) -> Row:
         if stop is not None and stop.is_set():
             raise Stopped
         simulation.advance(min(chunk, scenario.steps - simulation.number))
+    return numbers_of(simulation)
+
+
+def numbers_of(simulation: Simulation) -> Row:
+    """Metrics and histograms of a run that is done."""
+    scenario = simulation.scenario
     tally, facts = simulation.tally, facts_of(scenario)
     histogram = phi_histogram(tally)
     return {

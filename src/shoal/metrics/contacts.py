@@ -1,7 +1,5 @@
 """Contacts: when each target is first detected, how often it is lost, and how long until it is found again."""
 
-import math
-
 from shoal.compiler.kernel import kernel
 from shoal.metrics.contract import Measurement, Metric, Sum
 from shoal.metrics.shares import share
@@ -26,7 +24,10 @@ def tally_contacts(tally, step, world, swarm, targets, scratch):
                 if lost > 0:
                     tally.ended[batch, j] += 1.0
                     tally.ended_steps[batch, j] += lost
-                    tally.loss_lengths[batch, min(int(math.log2(lost)), bins - 1)] += 1.0
+                    length = 0
+                    while length < bins - 1 and lost >= 2 << length:
+                        length += 1
+                    tally.loss_lengths[batch, length] += 1.0
                 targets[j].lost = 0
             elif lost >= 0:
                 tally.losses[batch, j] += 1.0 if lost == 0 else 0.0

@@ -29,20 +29,31 @@ def tally_coverage(tally, step, world, swarm, targets, scratch):
     cell 2 w in window w = 1, 2, ... if an agent was in it at the start of the window, 2 w + 1 if one came later: only
     these count for the rate, so that a swarm at rest has none.
     """
-    batch = step.batch
+    mark_cells(tally, step, world, swarm, 0, world.agents)
+    count_cells(tally, step)
+
+
+@kernel
+def mark_cells(tally, step, world, swarm, first, last):
+    """Mark the cells that agents first..last are in."""
     window = step.number // WINDOW + 1
-    into = step.number % WINDOW
     seen = tally.seen
-    mark = 2 * window + (1 if into > 0 else 0)
+    mark = 2 * window + (1 if step.number % WINDOW > 0 else 0)
     wide = CELLS / (2.0 * world.half_x)
     high = CELLS / (2.0 * world.half_y)
-    for i in range(world.agents):
+    for i in range(first, last):
         if swarm.alive[i] > 0.0:
-            column = math.floor((swarm.x[i] + world.half_x) * wide)
-            row = math.floor((swarm.y[i] + world.half_y) * high)
+            column = int(math.floor((swarm.x[i] + world.half_x) * wide))  # noqa: RUF046  (on a card it is a float)
+            row = int(math.floor((swarm.y[i] + world.half_y) * high))  # noqa: RUF046
             cell = min(max(row, 0), CELLS - 1) * CELLS + min(max(column, 0), CELLS - 1)
             if seen[0, cell] < 2 * window:
                 seen[0, cell] = mark
+
+
+@kernel
+def count_cells(tally, step):
+    """Count the marked cells, at a tenth and at the end of a window."""
+    batch, window, into, seen = step.batch, step.number // WINDOW + 1, step.number % WINDOW, tally.seen
     if into == _FIRST or into == WINDOW - 1:
         covered = 0
         fresh = 0

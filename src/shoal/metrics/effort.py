@@ -18,7 +18,13 @@ def tally_effort(tally, step, world, swarm, targets, scratch):
     Drag grows like the square of the speed, so the power to overcome it grows like the cube: the proxy compares fleets
     and strategies, it is not joules.
     """
-    for i in range(world.agents):
+    add_effort(tally, step, world, swarm, 0, world.agents)
+
+
+@kernel
+def add_effort(tally, step, world, swarm, first, last):
+    """The same of agents first..last."""
+    for i in range(first, last):
         square = swarm.vx[i] * swarm.vx[i] + swarm.vy[i] * swarm.vy[i]
         speed = swarm.alive[i] * math.sqrt(square)
         tally.distance[step.batch, i] += speed * world.time_step

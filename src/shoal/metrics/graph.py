@@ -27,15 +27,21 @@ def tally_graph(tally, step, world, swarm, targets, scratch):
         clustering = cluster_lists(links.lists, alive, part, world.agents)
     else:
         clustering = cluster_all(links, alive, part, world.agents)
+    add_graph(tally, step.batch, alive, part, clustering, world.agents)
+
+
+@kernel
+def add_graph(tally, batch, alive, part, clustering, agents):
+    """Count the components, of which part[i] names one member, and add the clustering of agents, which is summed."""
     components = 0
     active = 0
-    for i in range(world.agents):
+    for i in range(agents):
         there = alive[i] > 0.0
         components += there and part[i] == i
         active += there
-    tally.graphs[step.batch] += 1.0
-    tally.components[step.batch] += components
-    tally.clustering[step.batch] += clustering / max(active, 1)
+    tally.graphs[batch] += 1.0
+    tally.components[batch] += components
+    tally.clustering[batch] += clustering / max(active, 1)
 
 
 @kernel
@@ -50,7 +56,7 @@ def cluster_all(links, alive, part, agents):
                 hears[i, j >> 5] |= 1 << (j & 31)
                 linked_either_way[i, j >> 5] |= 1 << (j & 31)
                 linked_either_way[j, i >> 5] |= 1 << (i & 31)
-                _join(part, i, j)
+                join(part, i, j)
     total = 0.0
     for i in range(agents):
         count = 0
@@ -76,7 +82,7 @@ def cluster_lists(lists, alive, part, agents):
         for c in range(lists.begins[p // LANES], lists.begins[p // LANES + 1]):
             q = lists.near[c]
             if (lists.hears[c] >> (p % LANES)) & 1 != 0 and alive[order[q]] > 0.0:
-                _join(part, order[p], order[q])
+                join(part, order[p], order[q])
                 among[q] = p * most + count
                 pairs[count] = 0
                 count += 1
@@ -114,7 +120,7 @@ def bits_of(word):
 
 
 @kernel
-def _join(part, one, other):
+def join(part, one, other):
     """Unite the parts of two agents under the lower root."""
     while part[one] != one:
         one = part[one]

@@ -23,20 +23,10 @@ def tally_heading_bearing(tally, step, world, swarm, targets, scratch):
     speed-limited velocity before the wall; stationary is judged by the displacement really made, so that an agent which
     presses against the wall is. Stationary agents count as phi = 0, as does an agent exactly on a target.
     """
-    present = False
-    for target in targets:
-        present |= target.present != 0
-    if not present:
+    if not any_present(targets):
         return
-    agents, bearing_x, bearing_y, phi = world.agents, scratch.a, scratch.b, scratch.c
-    _nearest_bearing(swarm, agents, targets, bearing_x, bearing_y)
-    for i in range(agents):
-        vx = swarm.command_x[i]
-        vy = swarm.command_y[i]
-        along = vx * bearing_x[i] + vy * bearing_y[i]
-        length2 = (vx * vx + vy * vy) * (bearing_x[i] * bearing_x[i] + bearing_y[i] * bearing_y[i])
-        moves = not is_stationary(swarm.vx[i], swarm.vy[i], swarm.max_speed[i]) and length2 > 0.0
-        phi[i] = along / math.sqrt(length2) if moves else 0.0
+    phi = scratch.c
+    correlate(swarm, targets, scratch, 0, world.agents)
     begin = 0
     for fleet in range(swarm.fleet_end.size):
         end = swarm.fleet_end[fleet]
@@ -48,6 +38,29 @@ def tally_heading_bearing(tally, step, world, swarm, targets, scratch):
             tally.histogram[step.batch, fleet, bin_of(phi[i])] += swarm.alive[i] > 0.0
         tally.stationary[step.batch, fleet] += stationary
         begin = end
+
+
+@kernel
+def correlate(swarm, targets, scratch, first, last):
+    """Set scratch.c to phi of agents first..last."""
+    bearing_x, bearing_y, phi = scratch.a, scratch.b, scratch.c
+    _nearest_bearing(swarm, targets, bearing_x, bearing_y, first, last)
+    for i in range(first, last):
+        vx = swarm.command_x[i]
+        vy = swarm.command_y[i]
+        along = vx * bearing_x[i] + vy * bearing_y[i]
+        length2 = (vx * vx + vy * vy) * (bearing_x[i] * bearing_x[i] + bearing_y[i] * bearing_y[i])
+        moves = not is_stationary(swarm.vx[i], swarm.vy[i], swarm.max_speed[i]) and length2 > 0.0
+        phi[i] = along / math.sqrt(length2) if moves else 0.0
+
+
+@kernel
+def any_present(targets):
+    """Whether there is a target to head for."""
+    present = False
+    for target in targets:
+        present |= target.present != 0
+    return present
 
 
 @kernel
@@ -72,14 +85,14 @@ def bin_of(phi):
 
 
 @kernel
-def _nearest_bearing(swarm, agents, targets, bearing_x, bearing_y):
-    """Vector from each agent to its nearest target present."""
-    for i in range(agents):
+def _nearest_bearing(swarm, targets, bearing_x, bearing_y, first, last):
+    """Vector from each of agents first..last to its nearest target present."""
+    for i in range(first, last):
         bearing_x[i] = np.inf
         bearing_y[i] = 0.0
     for target in targets:
         if target.present:
-            for i in range(agents):
+            for i in range(first, last):
                 dx = target.x - swarm.x[i]
                 dy = target.y - swarm.y[i]
                 known = bearing_x[i] * bearing_x[i] + bearing_y[i] * bearing_y[i]

@@ -15,10 +15,16 @@ def tally_time_on_target(tally, step, world, swarm, targets, scratch):
 
     The timeline counts the same in finer parts: window w of a batch is its steps from w / W to (w + 1) / W.
     """
-    batch = step.batch
     engaged = 0
     for i in range(world.agents):
         engaged += swarm.engaged[i]
+    count_step(tally, step, targets, engaged)
+
+
+@kernel
+def count_step(tally, step, targets, engaged):
+    """Count a step in which so many agents are on a target."""
+    batch = step.batch
     present = False
     for j in range(targets.size):
         here = targets[j].present != 0

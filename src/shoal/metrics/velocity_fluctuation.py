@@ -16,7 +16,14 @@ def tally_velocity_fluctuation(tally, step, world, swarm, targets, scratch):
     Kwa et al., Heterogeneous Swarms, Eq. 5. Eq. 7 as printed sums vectors that cancel to zero; the norm is meant.
     Absent agents lie still and count for nothing.
     """
-    agents, size = world.agents, scratch.a
+    mean_x, mean_y = mean_velocity(swarm, world.agents)
+    deviate(scratch.a, swarm, mean_x, mean_y, 0, world.agents)
+    add_deviations(tally, step, swarm, scratch.a)
+
+
+@kernel
+def mean_velocity(swarm, agents):
+    """Mean velocity of the agents that are there [m/s]."""
     there = 0
     mean_x = 0.0
     mean_y = 0.0
@@ -24,12 +31,21 @@ def tally_velocity_fluctuation(tally, step, world, swarm, targets, scratch):
         mean_x += swarm.vx[i]
         mean_y += swarm.vy[i]
         there += swarm.alive[i] > 0.0
-    mean_x /= max(there, 1)  # all may be lost
-    mean_y /= max(there, 1)
-    for i in range(agents):
+    return mean_x / max(there, 1), mean_y / max(there, 1)  # all may be lost
+
+
+@kernel
+def deviate(size, swarm, mean_x, mean_y, first, last):
+    """Set `size` to |u_i| of agents first..last, 0 of those who are not there."""
+    for i in range(first, last):
         ux = swarm.vx[i] - mean_x
         uy = swarm.vy[i] - mean_y
         size[i] = swarm.alive[i] * math.sqrt(ux * ux + uy * uy)
+
+
+@kernel
+def add_deviations(tally, step, swarm, size):
+    """Add |u_i| of every agent, in order, by fleet."""
     begin = 0
     for fleet in range(swarm.fleet_end.size):
         total = 0.0

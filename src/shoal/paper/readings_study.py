@@ -39,16 +39,18 @@ class Scored:
         return (-holding(self.found), -score(self.found), self.reading.departures)
 
 
-def run_study(out: Path, *, quick: bool = False, jobs: int | None = None, report: Report | None = None) -> Reproduction:
+def run_study(
+    out: Path, *, quick: bool = False, jobs: int | None = None, device: str = "cpu", report: Report | None = None
+) -> Reproduction:
     """Run what is missing of the study under `out`, and return its tables.
 
     The finalists are the three readings of the highest score in the screen (ties: more statements that hold, then fewer
     departures from the printed one) and the printed one; chosen is the finalist under which most statements hold.
     """
     screen, final = (SCREEN_QUICK, FINAL_QUICK) if quick else (SCREEN, FINAL)
-    screened = _run(readings(), screen, out, quick, jobs, report)
+    screened = _run(readings(), screen, out, quick, jobs, report, device)
     finalists = _finalists(screened)
-    finals = _run(finalists, final, out, quick, jobs, report)
+    finals = _run(finalists, final, out, quick, jobs, report, device)
     chosen = min(finals, key=lambda each: each.order)
     best = {each.reading.name: each for each in (*screened, *finals)}  # a finalist as its longer runs judge it
     return Reproduction(
@@ -123,11 +125,17 @@ def _finalists(screened: Sequence[Scored]) -> list[Reading]:
 
 
 def _run(
-    chosen: Sequence[Reading], trial: Trial, out: Path, quick: bool, jobs: int | None, report: Report | None
+    chosen: Sequence[Reading],
+    trial: Trial,
+    out: Path,
+    quick: bool,
+    jobs: int | None,
+    report: Report | None,
+    device: str,
 ) -> list[Scored]:
     """Run a trial for these readings, and judge each."""
     groups: list[Group] = [group for reading in chosen for group in groups_of(reading, trial)]
-    rows = run_plan(Plan(STUDY, quick, trial.steps, trial.seeds, tuple(groups)), out, jobs, report)
+    rows = run_plan(Plan(STUDY, quick, trial.steps, trial.seeds, tuple(groups)), out, jobs, report, device)
     scored = []
     for reading in chosen:
         main, placement = (rows[f"{trial.name}/{reading.slug}/{part}"] for part in ("main", "placement"))

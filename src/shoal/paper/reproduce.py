@@ -45,6 +45,7 @@ def reproduce(
     quick: bool = False,
     readings: bool = False,
     jobs: int | None = None,
+    device: str = "cpu",
     report: Report | None = None,
 ) -> Reproduction:
     """Run what is missing under `out`, and return the claims with their verdicts, the tables and the figures.
@@ -58,13 +59,15 @@ def reproduce(
     quick : 20,000 steps, 2 seeds, fewer k
     readings : of oceans2020, instead of its claims, which reading of the paper meets most of them (readings.csv)
     jobs : threads, default one per core
+    device : cpu, or cuda: on a graphics card, see docs/how-to/gpu.md
     report : called after every run, with the progress of all sweeps together
 
     Raises
     ------
     ScenarioError : no such paper, or readings of another one
     RecordError : `out` holds another reproduction, is in use, or cannot be written
-    MissingExtraError : matplotlib is not installed; the runs are kept
+    MissingExtraError : matplotlib is not installed; the runs are kept. Or numba-cuda, which device="cuda" needs
+    DeviceError : there is no graphics card
     KeyboardInterrupt : interrupted; all finished runs are kept
     """
     if paper not in PAPERS:
@@ -74,12 +77,12 @@ def reproduce(
     begun, folder = time.monotonic(), Path(out)
     _claim_folder(folder, STUDY if readings else paper, quick)
     if readings:
-        found = run_study(folder, quick=quick, jobs=jobs, report=report)
+        found = run_study(folder, quick=quick, jobs=jobs, device=device, report=report)
     else:
         plan = make_plan(paper, quick=quick)
-        rows = run_plan(plan, folder, jobs, report)
+        rows = run_plan(plan, folder, jobs, report, device)
         found = (judge_oceans if paper == "oceans2020" else judge_aamas)(plan, rows)
-    found.command = _command(paper, folder, quick, readings, jobs)
+    found.command = _command(paper, folder, quick, readings, jobs, device)
     found.versions = _versions()
     _draw(found)
     found.seconds = time.monotonic() - begun
@@ -212,9 +215,10 @@ def _write(found: Reproduction, out: Path) -> None:
     write_report(found, out)
 
 
-def _command(paper: str, out: Path, quick: bool, readings: bool, jobs: int | None) -> str:
+def _command(paper: str, out: Path, quick: bool, readings: bool, jobs: int | None, device: str) -> str:
     chosen = [*(["--readings"] if readings else []), *(["--quick"] if quick else [])]
     options = [*chosen, "--out", str(out), *(["--jobs", str(jobs)] if jobs else [])]
+    options += ["--device", device] if device != "cpu" else []
     return shlex.join(["shoal", "reproduce", paper, *options])
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from shoal.experiments.cells import make_cells
-from shoal.experiments.executors import in_threads
+from shoal.experiments.on_card import executor_on
 from shoal.experiments.results import seal
 from shoal.experiments.rows import Row
 from shoal.experiments.sweep import Progress, sweep
@@ -13,9 +13,12 @@ from shoal.paper.plan import Plan
 Report = Callable[[Progress], None]
 
 
-def run_plan(plan: Plan, out: Path, jobs: int | None = None, report: Report | None = None) -> dict[str, list[Row]]:
+def run_plan(
+    plan: Plan, out: Path, jobs: int | None = None, report: Report | None = None, device: str = "cpu"
+) -> dict[str, list[Row]]:
     """Run what is missing, and return the rows of every group with its labels."""
     total = sum(len(make_cells(group.design, group.changes)) * group.design.runs for group in plan.groups)
+    execute = executor_on(device, jobs)
     overall = Progress(total=total, before=0)
     rows = {}
     for group in plan.groups:
@@ -27,9 +30,7 @@ def run_plan(plan: Plan, out: Path, jobs: int | None = None, report: Report | No
                 report(overall)
 
         store = out / "runs" / group.name
-        found = sweep(
-            group.design, store, changes=group.changes, executor=in_threads(jobs), retry_failed=True, report=tell
-        )
+        found = sweep(group.design, store, changes=group.changes, executor=execute, retry_failed=True, report=tell)
         overall.before += len(found) - (overall.before - before) - (overall.done - done)  # a group with nothing to do
         seal(store, found)
         rows[group.name] = [{**group.labels, **row} for row in found]

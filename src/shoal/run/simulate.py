@@ -24,6 +24,7 @@ from shoal.record.trajectory import Trajectory
 from shoal.run.compiling import mark_compiled
 from shoal.run.facts import facts_of
 from shoal.run.keep import Keep
+from shoal.run.on_card import AT_ONCE, check_device, run_on_card
 from shoal.run.simulation import Simulation
 from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source, load
@@ -37,6 +38,7 @@ def simulate(
     *,
     runs: int = 1,
     jobs: int | None = None,
+    device: str = "cpu",
     every: int | None = None,
     out: str | Path | None = None,
     progress: ProgressCallback | None = None,
@@ -51,6 +53,7 @@ def simulate(
     scenario : what to run: a preset's name, a TOML file, a dict or a Scenario
     runs : independent replicates, R; replicate r of two scenarios with one seed shares its chance
     jobs : threads, one run each; default: one per core
+    device : cpu, or cuda: all runs at once on a graphics card, for what docs/how-to/gpu.md lists
     every : keep the frame of every n-th step of every run; default: an overview of the first run, of 500 MB at most
     out : write the record to this new folder; trajectories stream there, so memory does not grow with steps
     progress : called as progress(steps done, steps in all) from time to time, from any thread
@@ -60,25 +63,31 @@ def simulate(
     ------
     ScenarioError, TrackError, StrategyError : what cannot run, or keep so many frames
     RecordError : `out` exists or cannot be written
+    MissingExtraError, DeviceError : there is no such device here, or it cannot do this
     """
     for name, number in (("runs", runs), ("jobs", jobs), ("every", every)):
         if number is not None and number < 1:
             raise ScenarioError(name, f"is {number}", "ask for 1 or more")
-    check_words(changes, also=("runs", "jobs", "every", "out", "progress"))
+    check_words(changes, also=("runs", "jobs", "device", "every", "out", "progress"))
     scenario = load(scenario, **changes)
+    card = check_device(device, [scenario])
     begun, started = time.perf_counter(), datetime.now(UTC)
     with RecordFolder(out) if out is not None else nullcontext() as folder:
         keep = Keep(scenario, every, runs, folder)
         first = Simulation(scenario)
         first.advance(0)  # compiles here and once, not in every thread
         mark_compiled(scenario)
-        results = _run_all(scenario, first, runs, jobs or os.cpu_count() or 1, keep, progress or _silent)
+        if card:
+            results = _run_on_card(scenario, first, runs, keep, progress or _silent)
+        else:
+            results = _run_all(scenario, first, runs, jobs or os.cpu_count() or 1, keep, progress or _silent)
         record = Record(
             scenario=scenario,
             facts=facts_of(scenario),
             roster=first.roster,
             tallies=tuple(tally for tally, _ in results),
-            provenance=provenance(scenario, started, time.perf_counter() - begun, [*first.notes, *keep.notes]),
+            provenance=provenance(scenario, started, time.perf_counter() - begun, [*first.notes, *keep.notes])
+            | ({"device": f"cuda: {card}"} if card else {}),
             trajectories={run: frames for run, (_, frames) in enumerate(results) if frames is not None},
         )
         return folder.finish(record) if folder else record
@@ -136,6 +145,49 @@ def _run_all(
             stop.set()  # every thread ends at its next chunk
             pool.shutdown(cancel_futures=True)
             raise
+
+
+def _run_on_card(
+    scenario: Scenario, first: Simulation, runs: int, keep: Keep, progress: ProgressCallback
+) -> list[tuple[Tally, Trajectory | None]]:
+    """All runs together, so many at a time that the memory of one machine holds them."""
+    results: list[tuple[Tally, Trajectory | None]] = []
+    done = 0
+
+    def count(steps: int) -> None:
+        nonlocal done
+        done += steps
+        progress(done, runs * scenario.steps)
+
+    for begin in range(0, runs, AT_ONCE):
+        numbers = range(begin, min(begin + AT_ONCE, runs))
+        simulations = [first if run == 0 else Simulation(scenario, run) for run in numbers]
+        recorded = [keep.all_runs or run == 0 for run in numbers]
+        writers = {
+            index: keep.folder.trajectory(run, keep.frames)
+            for index, run in enumerate(numbers)
+            if keep.folder and recorded[index]
+        }
+        parts: dict[int, list[Trajectory]] = {}
+
+        def take(
+            index: int, part: Trajectory, writers: Any = writers, parts: dict[int, list[Trajectory]] = parts
+        ) -> None:
+            if index in writers:
+                writers[index].append(part)
+            else:
+                parts.setdefault(index, []).append(part)
+
+        try:
+            run_on_card(simulations, every=keep.every, tail=keep.tail, recorded=recorded, keep=take, count=count)
+        finally:
+            for writer in writers.values():
+                writer.close()
+        results += [
+            (each.tally, Trajectory.join(parts[index]) if index in parts else None)
+            for index, each in enumerate(simulations)
+        ]
+    return results
 
 
 def _run_one(

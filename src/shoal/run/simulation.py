@@ -119,7 +119,7 @@ class Simulation:
         self._which = Run(np.uint64(scenario.seed), run, scenario.steps)
         self._phases = addresses(self.world, collecting=network.collects, first=self._compile)
         self._placed = Placed(self._stage(self._new_frames(0)))
-        self._looking = Placed(self._stage(self._new_frames(1)))
+        self._looking: Placed | None = None  # until somebody looks
         starts = np.array([PLACES.index(fleet.start) for fleet in scenario.fleets])
         lifetimes = np.array([fleet.mean_lifetime or 0.0 for fleet in scenario.fleets])
         with plugin_errors():
@@ -174,6 +174,20 @@ class Simulation:
         self._timetable.add(command)
         self._follow_commands()
 
+    def work(self, frames: int = 0) -> tuple[Stage, Memories, Any]:
+        """What the engine works on, with room for so many frames: for those who run steps elsewhere, see `worked`."""
+        return self._stage(self._new_frames(frames)), self._memories, self.crew.params
+
+    def worked(self, steps: int) -> None:
+        """Go on from a state that was brought so many steps further elsewhere.
+
+        Raises
+        ------
+        StrategyError, ScenarioError : a number is not finite
+        """
+        self.number += steps
+        self._settle()
+
     def look(self) -> Trajectory:
         """Return the current frame (K = 1), as the coming step would keep it. Nothing is changed.
 
@@ -181,7 +195,7 @@ class Simulation:
         done, they are those of agents that all decide first.
         """
         self._keep_frames(looking=True)
-        self._looking = self._in_place(self._looking)
+        self._looking = self._in_place(self._looking or Placed(self._stage(self._new_frames(1))))
         _look(self._looking.address, self.number)
         seen = Frames(*(array.copy() for array in self._looking.stage.frames))
         return Trajectory.from_frames(seen, self.memory_fields)

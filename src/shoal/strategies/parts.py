@@ -59,9 +59,14 @@ def raised(base: float, exponent: float) -> float:
         return math.inf
 
 
+@kernel
+def _to_the_power(base, exponent):
+    return base**exponent
+
+
 @overload(raised, inline="always")
 def _raised(base, exponent):
-    return lambda base, exponent: base**exponent
+    return lambda base, exponent: _to_the_power(base, exponent)
 
 
 @kernel

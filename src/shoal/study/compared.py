@@ -21,7 +21,8 @@ from shoal.experiments.comparison_words import (
 )
 from shoal.experiments.compiled_first import compiled_first
 from shoal.experiments.contenders import contenders, with_parameters
-from shoal.experiments.executors import Executor, in_threads
+from shoal.experiments.executors import Executor
+from shoal.experiments.on_card import executor_on
 from shoal.experiments.rows import Row
 from shoal.experiments.run_comparison import comparison_design, run_comparison, values_of
 from shoal.experiments.sweep import Progress
@@ -159,6 +160,7 @@ class CompareOptions(NamedTuple):
     metric: str = "time_on_target"
     baseline: str | None = None
     jobs: int | None = None
+    device: str = "cpu"
     out: str | Path | None = None
     progress: Callable[[int, int], None] | None = None
 
@@ -181,6 +183,7 @@ def compare(
     metric : what is compared, see shoal.list_metrics
     baseline : the strategy that all others are compared with; default the first
     jobs : threads, one run each; default one per core
+    device : cpu, or cuda: on a graphics card, thousands at once, for what docs/how-to/gpu.md lists
     out : keep all runs in this folder, a store as of a sweep; the same call again resumes
     progress : called as progress(runs done, runs in all) after every run
     changes : to the scenario, in the words of the command line, as in `Scenario.with_`; or to a strategy by its name,
@@ -200,7 +203,7 @@ def compare(
         scenario,
         {name: written(value) for name, value in changes.items()},
         options,
-        executor=compiled_first(in_threads(options.jobs), _say_nothing),
+        executor=compiled_first(executor_on(options.device, options.jobs), _say_nothing),
         report=progress_of(options.progress),
     )
 

@@ -9,7 +9,7 @@ from shoal.core.errors import MissingExtraError, UnknownNameError
 from shoal.core.keywords import lists_keywords, split_keywords
 from shoal.core.sheet import Sheet
 from shoal.experiments.design import Design, grid, together
-from shoal.experiments.executors import in_threads
+from shoal.experiments.on_card import executor_on
 from shoal.experiments.results import aggregate, seal
 from shoal.experiments.rows import Row
 from shoal.experiments.sweep import Stop
@@ -121,6 +121,7 @@ class SweepOptions(NamedTuple):
     max_runs: int = 50
     independent: bool = False
     jobs: int | None = None
+    device: str = "cpu"
     out: str | Path | None = None
     progress: Callable[[int, int], None] | None = None
 
@@ -141,6 +142,7 @@ def sweep(scenario: Source, vary: Mapping[str, Values], **changes: Any) -> Swept
     max_runs : most replicates of each combination then
     independent : give every combination a seed of its own
     jobs : threads, one run each; default one per core
+    device : cpu, or cuda: on a graphics card, thousands at once, for what docs/how-to/gpu.md lists
     out : keep all runs in this folder; the same call again resumes, and adds what is new
     progress : called as progress(runs done, runs in all) after every run
     changes : to the scenario, for all combinations, as in `Scenario.with_`
@@ -163,7 +165,7 @@ def sweep(scenario: Source, vary: Mapping[str, Values], **changes: Any) -> Swept
             design,
             folder,
             changes={name: written(value) for name, value in changes.items()},
-            executor=in_threads(options.jobs),
+            executor=executor_on(options.device, options.jobs),
             until=Stop(options.until_ci, options.max_runs) if options.until_ci else None,
             independent=options.independent,
             report=progress_of(options.progress),

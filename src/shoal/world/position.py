@@ -29,9 +29,9 @@ def begin_errors(swarm, world, start_key):
 
 
 @kernel
-def age_errors(swarm, world, step_key):
-    """Take every error on by a step."""
-    for i in range(world.agents):
+def age_errors(swarm, step_key, first, last):
+    """Take the errors of agents first..last on by a step."""
+    for i in range(first, last):
         key, size, memory = split(step_key, i), swarm.position_error[i], swarm.position_memory[i]
         swarm.error_x[i] = aged(swarm.error_x[i], size, memory, normal(key, _EAST))
         swarm.error_y[i] = aged(swarm.error_y[i], size, memory, normal(key, _NORTH))

@@ -45,6 +45,30 @@ def imagines(key, false_alarm):
 
 
 @kernel
+def detects(swarm, target, j, effects, sea, world, step_key, i):
+    """Whether agent i detects target j, which is present."""
+    dx = swarm.x[i] - target.x
+    dy = swarm.y[i] - target.y
+    sees = within_reach(dx, dy, swarm.horizon[i] + target.radius) & (swarm.alive[i] > 0.0)
+    if world.coastal and sees:
+        sees = in_sight(sea.land, swarm.x[i], swarm.y[i], target.x, target.y)
+    if world.imperfect:
+        chance = swarm.detection[i] * effects[i].senses
+        if swarm.glimpse[i] > 0.0:
+            distance = math.sqrt(dx * dx + dy * dy) - target.radius
+            chance *= glimpsed(distance, swarm.glimpse[i], world.time_step)
+        sees &= notices(split(step_key, i), j, chance)
+    return sees
+
+
+@kernel
+def believes(swarm, effects, step_key, i):
+    """Whether agent i believes to be on target where sensors imagine some: it is engaged, or has a false alarm."""
+    alarm = imagines(split(step_key, i), swarm.false_alarm[i] * effects[i].senses)
+    return swarm.engaged[i] | (alarm & (swarm.alive[i] > 0.0))
+
+
+@kernel
 def sense(swarm, targets, effects, sea, world, step_key):
     """Set on_target (f_i = -1 in the paper) of every agent within its sensor radius plus a target's radius.
 
@@ -63,17 +87,7 @@ def sense(swarm, targets, effects, sea, world, step_key):
         watchers = 0
         if target.present:
             for i in range(agents):
-                dx = swarm.x[i] - target.x
-                dy = swarm.y[i] - target.y
-                sees = within_reach(dx, dy, swarm.horizon[i] + target.radius) & (swarm.alive[i] > 0.0)
-                if world.coastal and sees:
-                    sees = in_sight(sea.land, swarm.x[i], swarm.y[i], target.x, target.y)
-                if world.imperfect:
-                    chance = swarm.detection[i] * effects[i].senses
-                    if swarm.glimpse[i] > 0.0:
-                        distance = math.sqrt(dx * dx + dy * dy) - target.radius
-                        chance *= glimpsed(distance, swarm.glimpse[i], world.time_step)
-                    sees &= notices(split(step_key, i), j, chance)
+                sees = detects(swarm, target, j, effects, sea, world, step_key, i)
                 swarm.on_target[i] |= sees
                 watchers += sees
         targets[j].watchers = watchers
@@ -82,6 +96,5 @@ def sense(swarm, targets, effects, sea, world, step_key):
         engaged += swarm.on_target[i]
     if world.imperfect:
         for i in range(agents):
-            alarm = imagines(split(step_key, i), swarm.false_alarm[i] * effects[i].senses)
-            swarm.on_target[i] |= alarm & (swarm.alive[i] > 0.0)
+            swarm.on_target[i] = believes(swarm, effects, step_key, i)
     return engaged

@@ -1,7 +1,7 @@
 """shoal compare: strategies side by side, with the same seeds, beside the motionless lattice."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
@@ -24,6 +24,7 @@ def compare(
     metric: str | None = None,
     baseline: str | None = None,
     jobs: MaybeInteger = None,
+    device: Literal["cpu", "cuda"] = "cpu",
     out: Path | None = None,
     figure: Path | None = None,
     markdown: Path | None = None,
@@ -58,6 +59,8 @@ def compare(
         The strategy that all others are compared with; default the first one named.
     jobs
         Threads, one run each; default one per core.
+    device
+        Where runs happen: the processor's cores (cpu), or a graphics card (cuda), all at once; see docs/how-to/gpu.md.
     out
         Keep all runs in this folder, a store like any sweep's; the same command again resumes.
     figure
@@ -80,8 +83,8 @@ def compare(
             raise ScenarioError("--markdown", "needs --suite", "add --suite arena; --json gives other comparisons")
         compare_strategies(
             strategies, scenario or SCENARIO, runs=runs, steps=steps, seed=seed, vary=vary or [],
-            assignments=assignments or [], metric=metric or METRIC, baseline=baseline, jobs=jobs, out=out,
-            figure=figure, as_json=json_,
+            assignments=assignments or [], metric=metric or METRIC, baseline=baseline, jobs=jobs,
+            device=device, out=out,            figure=figure, as_json=json_,
         )  # fmt: skip
         return
     fixed = {"--scenario": scenario, "--vary": vary, "--set": assignments, "--metric": metric, "--baseline": baseline}
@@ -89,6 +92,6 @@ def compare(
         if given:
             raise ScenarioError(name, f"does not go with --suite: {suite} has its own", "leave out one of the two")
     compare_suite(
-        strategies, suite, runs=runs, steps=steps, seed=seed, jobs=jobs, out=out, figure=figure, markdown=markdown,
-        as_json=json_,
+        strategies, suite, runs=runs, steps=steps, seed=seed, jobs=jobs, device=device, out=out, figure=figure,
+        markdown=markdown, as_json=json_,
     )  # fmt: skip

@@ -22,6 +22,7 @@ def compare_strategies(
     metric: str,
     baseline: str | None,
     jobs: int | None,
+    device: str,
     out: Path | None,
     figure: Path | None,
     as_json: bool,
@@ -32,7 +33,7 @@ def compare_strategies(
     from shoal.cli.options import as_options, check_asked, given_changes
     from shoal.experiments.compiled_first import compiled_first
     from shoal.experiments.design import parse_vary
-    from shoal.experiments.executors import in_threads
+    from shoal.experiments.on_card import executor_on
     from shoal.study.compared import RUNS, CompareOptions, compared
 
     options = [(f"--{name}", name) for name, value in (("steps", steps), ("seed", seed)) if value is not None]
@@ -44,7 +45,7 @@ def compare_strategies(
             scenario,
             given_changes(assignments, steps=steps, seed=seed),
             CompareOptions(runs or RUNS, dict(map(parse_vary, vary)), metric, baseline, out=out),
-            executor=compiled_first(in_threads(jobs), note),
+            executor=compiled_first(executor_on(device, jobs), note),
             report=report,
         )
     tell_failures(row for _, strategies in found.found for rows in strategies.values() for row in rows)

@@ -19,6 +19,7 @@ def compare_suite(
     steps: int | None,
     seed: int | None,
     jobs: int | None,
+    device: str,
     out: Path | None,
     figure: Path | None,
     markdown: Path | None,
@@ -30,9 +31,9 @@ def compare_suite(
     from shoal.core.files import check_file
     from shoal.experiments.compiled_first import compiled_first
     from shoal.experiments.contenders import contenders
-    from shoal.experiments.executors import in_threads
     from shoal.experiments.leaderboard import make_leaderboard
     from shoal.experiments.leaderboard_page import page_around, write_page
+    from shoal.experiments.on_card import executor_on
     from shoal.experiments.suite import read_suite, resized, run_suite, suite_values
     from shoal.strategies import CATALOGUE
     from shoal.study.comparison_figure import leaderboard_figure
@@ -49,8 +50,8 @@ def compare_suite(
         note(f"{title} ({titles.index(title) + 1} of {len(titles)})")
 
     begun = time.monotonic()
+    execute = compiled_first(executor_on(device, jobs), note)
     with store_folder(out) as folder, sweep_progress(out) as report:
-        execute = compiled_first(in_threads(jobs), note)
         found = run_suite(suite, everybody, folder, executor=execute, begin=begin, report=report)
     tell_failures(row for strategies in found.values() for rows in strategies.values() for row in rows)
     board = make_leaderboard(suite, everybody, suite_values(suite, found))
