@@ -11,7 +11,7 @@ import numpy.typing as npt
 from shoal.compiler.kernel import compile_for
 from shoal.compiler.late import compiles
 from shoal.compiler.placed import Placed
-from shoal.core.agents import NEVER, as_records
+from shoal.core.agents import NEVER, Memories, as_records
 from shoal.core.errors import ScenarioError, StrategyError
 from shoal.core.plugin_errors import plugin_errors
 from shoal.core.text import plain

@@ -161,9 +161,9 @@ def listen_and_decide(stage, room, memories, params, now, i):
     world, swarm, radio, scratch = read(stage, WORLD), read(stage, SWARM), read(stage, RADIO), read(stage, SCRATCH)
     last = i + 1
     agents, number = world.agents, now.number
-    reach, low, sums = cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE), cuda.local.array((SUMS, 1), DOUBLE)
+    reach, sums = cuda.local.array(1, DOUBLE), cuda.local.array((SUMS, 1), DOUBLE)
     heard, wanted = cuda.local.array(1, INTEGER), cuda.local.array(1, INTEGER)
-    off, leader = cuda.local.array(1, INTEGER), cuda.local.array(1, INTEGER)
+    leader = cuda.local.array(1, INTEGER)
     x, y, vx = cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE)
     vy, max_speed, fleet = cuda.local.array(1, DOUBLE), cuda.local.array(1, DOUBLE), cuda.local.array(1, INTEGER)
     on_target = cuda.local.array(1, numba.boolean)
@@ -173,7 +173,7 @@ def listen_and_decide(stage, room, memories, params, now, i):
     rows = agents + agents % 2  # of distances; those of the next agent begin after one more, which is in another bank
     square, rank = column(room[i * (rows + 1) : i * (rows + 1) + rows]), others.rank[:, i:last]
     order = others.order[i * agents : last * agents] if others.rank.shape[0] > 0 else others.order
-    links = Links(square, reach, heard, wanted, low, low, low, low, off, rank, order, others.silent, others.lists)
+    links = Links(square, reach, heard, wanted, rank, order, others.silent, others.lists)
     reports = said(radio, swarm, number)
     measure(square, reports.x, reports.y, x[0], y[0], agents, i)
     wanted[0] = swarm.neighbors[i]
