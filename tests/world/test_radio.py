@@ -36,9 +36,9 @@ def links_of(swarm, radio, number=10):
     reports = said(radio, swarm, number)
     measure_distances(links, reports.x, reports.y, swarm.x, swarm.y, 0, n)
     limit_links(links, swarm, radio, 0, n, number, radio.range_square)
-    link_nearest(links, links.wanted, n)
+    link_nearest(links, n)
     links.heard[:] = (links.square <= links.reach).sum(axis=0)
-    settle_ties(links, links.wanted, n)
+    settle_ties(links, n)
     return (links.square <= links.reach)[:n, :n]
 
 
