@@ -72,6 +72,16 @@ def records():
     return found
 
 
+def many():
+    """What `records` finds where a run on the processor goes by lists of neighbors."""
+    from shoal.run import build
+
+    build.FEWEST_LISTED = 2
+    SMALL.update(agents=12, fast=5)
+    simulation = Simulation(load("oceans2020", **SMALL))
+    return simulation.world.listed, *records()
+
+
 def memory():
     """What compiled code reads and writes in an arena, of three groups, if it is said that all of them are coastal."""
     import numba

@@ -62,6 +62,13 @@ def test_records_and_sweeps_are_the_same_but_for_the_device():
     assert cpu == cuda
 
 
+def test_so_are_those_of_many_agents():
+    listed, cpu, cuda = simulated("many")
+    assert listed == 3
+    assert cpu.pop("device") != cuda.pop("device")
+    assert cpu == cuda
+
+
 def test_compiled_code_finds_its_arrays_in_an_arena():
     found = simulated("memory", compiling=True)
     assert found["read"] == [[0.0, 1.0, 0.0], [0.5, 1.0, 0.25], [1.0, 1.0, 0.5]]

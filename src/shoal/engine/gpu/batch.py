@@ -12,6 +12,7 @@ from shoal.compiler.packed import reader
 from shoal.engine.gpu.arena import Arena
 from shoal.engine.gpu.card import as_on_the_cpu, compiled, finish, numbers
 from shoal.engine.stage import RADIO, WORLD, Stage
+from shoal.world.neighbors import new_links
 
 MOST_AGENTS = 255  # a block has as many threads and one more
 _NEAR = 48 << 10  # bytes that a block has for itself without asking
@@ -112,8 +113,14 @@ def _kernel_for(memories: _Kind, params: _Kind, known: tuple[Fact, ...], near: b
 
 
 def _with_room(stage: Stage) -> Stage:
-    """The same stage, with room for every agent to sort those whom it hears, and no distances: a block has its own."""
+    """The same stage, with room for every agent to sort those whom it hears, and no distances: a block has its own.
+
+    On a card it is distances that say who hears whom, however many agents there are.
+    """
     scratch, links = stage.scratch, stage.scratch.links
+    if stage.world.listed:
+        links = new_links(stage.world.agents, links.reach.size, links.lists.rank.shape[0] > 0)
+        stage = stage._replace(world=stage.world._replace(listed=0))
     order = np.zeros(links.order.size * links.reach.size, np.int64)
     links = links._replace(order=order, square=np.zeros((0, 0)))
     return stage._replace(scratch=scratch._replace(links=links))
