@@ -73,10 +73,10 @@ class TestSweep:
 class TestStopRule:
     def test_replicates_are_added_until_the_interval_is_narrow_or_the_most_is_reached(self, tmp_path):
         design = Design("oceans2020", ({"neighbors": 20}, {"neighbors": 49}), 2)
-        rows = sweep(design, tmp_path, changes={"steps": 2000}, until=Stop(width=0.1, most=9))
+        rows = sweep(design, tmp_path, changes={"steps": 2000}, until=Stop(width=0.05, most=9))
         for group in aggregate(rows, ["neighbors"]):
             width = group["time_on_target_high"] - group["time_on_target_low"]
-            assert width <= 0.1 or group["runs"] == 9
+            assert width <= 0.05 or group["runs"] == 9
             assert group["runs"] > 2
 
 

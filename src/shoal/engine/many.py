@@ -27,7 +27,7 @@ def link_many(stage, number, first, batch, key):
 @kernel
 def _find(links, world, swarm, radio, effects, run, number):
     then = spoken(radio, number)
-    most = links.lists.most
+    most = links.lists.most[0]
     for i in range(world.agents):
         deaf = (world.disturbed and effects[i].hears <= 0.0) or (radio.limited and swarm.alive[i] <= 0.0)
         links.wanted[i] = 0 if deaf else min(swarm.neighbors[i], most)

@@ -73,7 +73,7 @@ def cluster_all(links, alive, part, agents):
 @kernel
 def cluster_lists(lists, alive, part, agents):
     """The same, where lists say who hears whom."""
-    order, most = lists.cells.order, lists.most
+    order, most = lists.cells.order, lists.most[0]
     among = np.full(agents, -1)  # where among those whom p hears, as p * most + number
     pairs = np.zeros((most, (most + 31) // 32), np.int64)  # of these, which are linked, as bits
     clustering = np.zeros(agents)

@@ -33,7 +33,7 @@ class Lists(NamedTuple):
     hears : (M,) which agents of the block hear them: a bit per lane
     rank : (M, LANES) how many of those that an agent hears are nearer; no rows where the strategy does not ask
     leads : (P,) 1 where an agent may lead, as places in cells.order
-    most : the most neighbors that an agent has
+    most : (1,) the most neighbors that an agent has
     found, ids, sorted, distance : (R,) scratch of a search: places in cells.order, indices, the places by index,
         squares of distances [m^2]; square : (R, LANES) of all agents of a block
     wanted, reach, limit, true_x, true_y : (LANES,) of the agents of a block: k, how far they hear, how far around them
@@ -46,7 +46,7 @@ class Lists(NamedTuple):
     hears: np.ndarray
     rank: np.ndarray
     leads: np.ndarray
-    most: int
+    most: np.ndarray
     found: np.ndarray
     ids: np.ndarray
     sorted: np.ndarray
@@ -71,7 +71,7 @@ def new_lists(agents: int, most: int, ranked: bool) -> Lists:
         np.zeros(kept, np.uint8),
         np.zeros((kept if ranked else 0, LANES), np.int64),
         np.zeros(LANES * blocks, np.uint8),
-        most,
+        np.array([most]),
         np.zeros(room, np.int32),
         aligned_zeros(room),
         np.zeros(room, np.int32),
