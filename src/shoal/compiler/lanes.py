@@ -24,11 +24,28 @@ WIDTH = 8  # doubles of an AVX-512 register; LLVM splits them where registers ar
 
 
 _DOUBLE, _WHOLE = Struct("=d"), Struct("=q")
+FARTHEST = {"float64": 1e300, "float32": 1e38}
+ALMOST_ONE = {"float64": 1.0 - 2.0**-52, "float32": 1.0 - 2.0**-23}
 
 
 def everywhere(number: Any) -> Any:
     """The same number in all lanes."""
     return np.full(WIDTH, number)
+
+
+def farthest(like: Any) -> Any:
+    """A number that is finite, and larger than any square of a distance [m^2], as precise as `like`."""
+    return np.full_like(like, FARTHEST[precision_of(np.asarray(like).dtype)])
+
+
+def almost_one(like: Any) -> Any:
+    """The largest number below 1 but one, as precise as `like`."""
+    return np.full_like(like, ALMOST_ONE[precision_of(np.asarray(like).dtype)])
+
+
+def precision_of(kind: Any) -> str:
+    """Of a type of numbers or of lanes of them, NumPy's or numba's: float32, or float64 whatever else it is."""
+    return "float32" if "float32" in (str(kind), str(getattr(kind, "kind", ""))) else "float64"
 
 
 def counting(first: int) -> Any:

@@ -20,16 +20,21 @@ from numba.core.typing.templates import AbstractTemplate, infer_global, signatur
 from numba.extending import models, register_model
 
 from shoal.compiler.lanes import (
+    ALMOST_ONE,
+    FARTHEST,
     WIDTH,
+    almost_one,
     any_of,
     bits_of,
     counting,
     either,
     everywhere,
+    farthest,
     gather,
     larger,
     mask_of,
     number_of,
+    precision_of,
     put,
     smaller,
     take,
@@ -62,9 +67,10 @@ class Lanes(_TYPE):  # type: ignore[misc]
 
 
 FLOATS = Lanes(types.float64, ir.DoubleType())
+SINGLES = Lanes(types.float32, ir.FloatType())
 WHOLE = Lanes(types.int64, ir.IntType(64))
 MASK = Lanes(types.boolean, ir.IntType(1))
-_SIZES = {types.float64: 8, types.int64: 8, types.int32: 4, types.boolean: 1}  # in bytes: of what lanes are made of
+_SIZES = {types.float64: 8, types.float32: 4, types.int64: 8, types.int32: 4, types.boolean: 1}  # in bytes: of what lanes are made of
 
 
 @_model_of(Lanes)
@@ -74,9 +80,12 @@ class _Vector(_MODEL):  # type: ignore[misc]
 
 
 def _common(*kinds: Any) -> Lanes:
-    """The lanes that numbers of these kinds become together."""
-    inner = [getattr(each, "kind", each) for each in kinds]
-    return FLOATS if any(isinstance(each, types.Float) for each in inner) else WHOLE
+    """The lanes that numbers of these kinds become together: a number beside lanes in single precision is rounded."""
+    lanes = [each for each in kinds if each in (FLOATS, SINGLES)]
+    inner = [getattr(each, "kind", each) for each in lanes or kinds]
+    if types.float64 in inner:
+        return FLOATS
+    return SINGLES if types.float32 in inner else WHOLE
 
 
 def _are_numbers(*kinds: Any) -> bool:
@@ -92,8 +101,12 @@ def _widened(context: Any, builder: Any, value: Any, kind: Any, to: Lanes) -> An
     if kind is to:
         return value
     if kind is MASK:
-        return builder.uitofp(value, to.vector) if to is FLOATS else builder.zext(value, to.vector)
-    return builder.sitofp(value, to.vector) if to is FLOATS else builder.fptosi(value, to.vector)
+        return builder.zext(value, to.vector) if to is WHOLE else builder.uitofp(value, to.vector)
+    if kind is WHOLE:
+        return builder.sitofp(value, to.vector)
+    if to is WHOLE:
+        return builder.fptosi(value, to.vector)
+    return builder.fptrunc(value, to.vector) if to is SINGLES else builder.fpext(value, to.vector)
 
 
 def _spread(builder: Any, scalar: Any, to: Lanes) -> Any:
@@ -139,19 +152,21 @@ def _binary(symbol: Any, build: Callable[..., Any], result: Lanes | None = None,
     def kind_of(a: Any, b: Any) -> Any:
         if not _are_numbers(a, b):
             return None
-        return result or (FLOATS if floats else _common(a, b))
+        common = _common(a, b)
+        return result or (FLOATS if floats and common is WHOLE else common)
 
     def code(context: Any, builder: Any, kinds: Any, arguments: Any, _: Any) -> Any:
-        to = FLOATS if floats else _common(*kinds)
+        common = _common(*kinds)
+        to = FLOATS if floats and common is WHOLE else common
         x, y = (_widened(context, builder, *each, to) for each in zip(arguments, kinds, strict=True))
         return build(builder, x, y, to)
 
     _teach(symbol, kind_of, code, 2)
 
 
-_binary(operator.add, lambda builder, x, y, to: (builder.fadd if to is FLOATS else builder.add)(x, y))
-_binary(operator.sub, lambda builder, x, y, to: (builder.fsub if to is FLOATS else builder.sub)(x, y))
-_binary(operator.mul, lambda builder, x, y, to: (builder.fmul if to is FLOATS else builder.mul)(x, y))
+_binary(operator.add, lambda builder, x, y, to: (builder.add if to is WHOLE else builder.fadd)(x, y))
+_binary(operator.sub, lambda builder, x, y, to: (builder.sub if to is WHOLE else builder.fsub)(x, y))
+_binary(operator.mul, lambda builder, x, y, to: (builder.mul if to is WHOLE else builder.fmul)(x, y))
 _binary(operator.truediv, lambda builder, x, y, to: builder.fdiv(x, y), floats=True)
 
 
@@ -159,7 +174,7 @@ _binary(operator.rshift, lambda builder, x, y, to: builder.ashr(x, y))  # of who
 
 
 def _compared(sign: str, builder: Any, x: Any, y: Any, to: Lanes) -> Any:
-    if to is not FLOATS:
+    if to is WHOLE:
         return builder.icmp_signed(sign, x, y)
     return builder.fcmp_unordered(sign, x, y) if sign == "!=" else builder.fcmp_ordered(sign, x, y)
 
@@ -195,29 +210,30 @@ _logic(operator.or_, "or_")
 
 
 def _of_llvm(function: Any, name: str, count: int, taken: Callable[..., bool]) -> None:
-    """Teach a function of doubles that LLVM has for vectors."""
+    """Teach a function of numbers that LLVM has for vectors; of whole ones it is of doubles."""
 
     def kind_of(*kinds: Any) -> Any:
-        return FLOATS if taken(*kinds) else None
+        return (SINGLES if _common(*kinds) is SINGLES else FLOATS) if taken(*kinds) else None
 
-    def code(context: Any, builder: Any, kinds: Any, arguments: Any, _: Any) -> Any:
-        lanes = [_widened(context, builder, *each, FLOATS) for each in zip(arguments, kinds, strict=True)]
-        kind = ir.FunctionType(FLOATS.vector, [FLOATS.vector] * count)
-        return builder.call(_utilities.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDTH}f64"), lanes)
+    def code(context: Any, builder: Any, kinds: Any, arguments: Any, to: Any) -> Any:
+        lanes = [_widened(context, builder, *each, to) for each in zip(arguments, kinds, strict=True)]
+        kind = ir.FunctionType(to.vector, [to.vector] * count)
+        full = f"llvm.{name}.v{WIDTH}f{to.kind.bitwidth}"
+        return builder.call(_utilities.get_or_insert_function(builder.module, kind, full), lanes)
 
     _teach(function, kind_of, code, count)
 
 
-_of_llvm(math.sqrt, "sqrt", 1, lambda x: x in (FLOATS, WHOLE))
-_of_llvm(abs, "fabs", 1, lambda x: x is FLOATS)
+_of_llvm(math.sqrt, "sqrt", 1, lambda x: x in (FLOATS, SINGLES, WHOLE))
+_of_llvm(abs, "fabs", 1, lambda x: x in (FLOATS, SINGLES))
 _of_llvm(operator.pow, "pow", 2, lambda x, y: isinstance(x, Lanes) and isinstance(y, types.Float))  # whole: not by pow
 
 
 def _negated(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
-    return builder.fneg(arguments[0]) if result is FLOATS else builder.neg(arguments[0])
+    return builder.neg(arguments[0]) if result is WHOLE else builder.fneg(arguments[0])
 
 
-_teach(operator.neg, lambda x: x if x in (FLOATS, WHOLE) else None, _negated, 1)
+_teach(operator.neg, lambda x: x if x in (FLOATS, SINGLES, WHOLE) else None, _negated, 1)
 
 
 def _kind_of_either(mask: Any, a: Any, b: Any) -> Any:
@@ -262,7 +278,7 @@ def _as_bits(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any
     return builder.bitcast(arguments[0], context.get_value_type(result))
 
 
-_teach(bits_of, lambda x: WHOLE if x is FLOATS else types.int64, _as_bits, 1)
+_teach(bits_of, lambda x: None if x is SINGLES else WHOLE if x is FLOATS else types.int64, _as_bits, 1)
 _teach(number_of, lambda x: FLOATS if x is WHOLE else types.float64, _as_bits, 1)
 
 
@@ -282,6 +298,18 @@ def _kind_of_extreme(a: Any, b: Any) -> Any:
     return _common(a, b) if _are_numbers(a, b) else _common(a, b).kind
 
 
+def _constant_of(numbers: dict[str, float]) -> Callable[..., Any]:
+    """A number that depends on the precision."""
+
+    def code(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
+        number = context.get_constant(getattr(result, "kind", result), numbers[precision_of(result)])
+        return _spread(builder, number, result) if isinstance(result, Lanes) else number
+
+    return code
+
+
+_teach(farthest, lambda like: like, _constant_of(FARTHEST), 1)
+_teach(almost_one, lambda like: like, _constant_of(ALMOST_ONE), 1)
 _teach(smaller, _kind_of_extreme, _extreme_of("<"), 2)
 _teach(larger, _kind_of_extreme, _extreme_of(">"), 2)
 _teach(either, _kind_of_either, _picked, 3)
@@ -296,7 +324,9 @@ def _kind_of_take(array: Any, at: Any, like: Any) -> Any:
     _check(array)
     if not isinstance(like, Lanes):
         return array.dtype
-    return MASK if array.dtype is types.boolean else _common(array.dtype)
+    if array.dtype is types.boolean:
+        return MASK
+    return like if isinstance(array.dtype, types.Float) and like in (FLOATS, SINGLES) else _common(array.dtype)
 
 
 def _kind_of_gather(array: Any, at: Any) -> Any:
@@ -314,7 +344,9 @@ def _taken(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) 
     loaded.align = _SIZES[array.dtype]
     if result is MASK:
         return builder.icmp_unsigned("!=", loaded, ir.Constant(block, [0] * WIDTH))
-    return builder.sext(loaded, result.vector) if array.dtype is types.int32 else loaded
+    if array.dtype is types.int32:
+        return builder.sext(loaded, result.vector)
+    return _widened(context, builder, loaded, _common(array.dtype), result)
 
 
 def _gathered(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:

@@ -128,6 +128,10 @@ class TurnMemories(Memories):
     """Memories where agents decide one after the other: what is compiled for them goes by any number of listeners."""
 
 
+class SingleMemories(Memories):
+    """Memories in single precision: what is compiled for them goes by such distances, and lanes of such numbers."""
+
+
 class KeptMemories(Memories):
     """Memories where reports are kept: what is compiled for them goes by a report of its own for each pair."""
 

@@ -25,7 +25,7 @@ LONGEST = 900.0  # [s] that a cold start may take; older folders are of one that
 PATIENCE = 300.0  # [s] that a part of another process is waited for
 FEW = 3  # parts that this process compiles alone; every three more are worth a process
 MOST = 7  # such processes
-_LONG = ("move_agents", "sense_all", "set_out", "move_targets", "link", "measure", "look_at_links")  # the longest first
+_LONG = ("move_agents", "sense_all", "set_out", "move_targets", "link", "link_single", "measure", "look_at_links")  # the longest first
 _CODE = "from shoal.engine.ahead import help_compiling; help_compiling({folder!r}, {names!r}, {count})"
 
 
@@ -126,7 +126,7 @@ def _missing(parts: Sequence[Part]) -> list[Part]:
 
 def help_compiling(folder: str, names: Sequence[str], count: int) -> None:
     """Compile parts of these names that nobody has taken, as one of `count` processes that were started for it."""
-    from shoal.engine import many, nature, phases
+    from shoal.engine import links, many, nature, phases
     from shoal.engine.rollout import SET_OUT
 
     parent = os.getppid()
@@ -134,7 +134,7 @@ def help_compiling(folder: str, names: Sequence[str], count: int) -> None:
         for name in names:
             if os.getppid() != parent or not os.path.isdir(folder):
                 return  # nobody is waiting any more
-            rooms = [each for each in (phases, nature, many) if hasattr(each, name)]
+            rooms = [each for each in (phases, links, nature, many) if hasattr(each, name)]
             part: Part = SET_OUT if name == SET_OUT.name else getattr(rooms[0], name)
             if not part.is_kept() and _take(folder, name):
                 part.address()

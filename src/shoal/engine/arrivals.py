@@ -8,10 +8,20 @@ compiles one of both, and nothing is asked while a run goes.
 from typing import Any
 
 from shoal.compiler.kernel import can_compile, kernel, overload
-from shoal.core.agents import KeptMemories, ListedMemories, Memories, TurnMemories
+from shoal.core.agents import KeptMemories, ListedMemories, Memories, SingleMemories, TurnMemories
 from shoal.engine.kept import Kept, choose_kept_leaders, row_of, sum_kept_influence
 from shoal.engine.listed import Listed, choose_listed_leaders, sum_listed_by_lanes, sum_listed_influence
-from shoal.engine.listen import Arrived, InTurn, choose_leaders, sum_by_lanes, sum_influence
+from shoal.engine.listen import (
+    Arrived,
+    InTurn,
+    Single,
+    choose_leaders,
+    choose_single_leaders,
+    sum_by_lanes,
+    sum_influence,
+    sum_single_by_lanes,
+    sum_single_influence,
+)
 from shoal.world.radio import row, said, spoken
 
 
@@ -35,6 +45,12 @@ def _in_turn(memories, radio, swarm, number, time_step):
 
 
 @kernel
+def _single(memories, radio, swarm, number, time_step):
+    arrived = _arrived(memories, radio, swarm, number, time_step)
+    return Single(arrived.said, arrived.told, arrived.at)
+
+
+@kernel
 def _listed(memories, radio, swarm, number, time_step):
     arrived = _arrived(memories, radio, swarm, number, time_step)
     return Listed(arrived.said, arrived.told, arrived.at)
@@ -48,19 +64,26 @@ def _kept(memories, radio, swarm, number, time_step):
 _ARRIVING: dict[Any, Any] = {
     Memories: _arrived,
     TurnMemories: _in_turn,
+    SingleMemories: _single,
     KeptMemories: _kept,
     ListedMemories: _listed,
 }
 _SUMMING: dict[Any, Any] = {
     Arrived: sum_influence,
     InTurn: sum_influence,
+    Single: sum_single_influence,
     Kept: sum_kept_influence,
     Listed: sum_listed_influence,
 }
-_BY_LANES: dict[Any, Any] = {Arrived: sum_by_lanes, Listed: sum_listed_by_lanes}  # where influence has no branches
+_BY_LANES: dict[Any, Any] = {
+    Arrived: sum_by_lanes,
+    Single: sum_single_by_lanes,
+    Listed: sum_listed_by_lanes,
+}  # where influence has no branches
 _CHOOSING: dict[Any, Any] = {
     Arrived: choose_leaders,
     InTurn: choose_leaders,
+    Single: choose_single_leaders,
     Kept: choose_kept_leaders,
     Listed: choose_listed_leaders,
 }

@@ -8,7 +8,7 @@ from shoal.compiler.kernel import kernel
 from shoal.compiler.lanes import WIDTH, counting, either, everywhere, put, take
 from shoal.core.messages import Briefing, Own, Report, Truth
 from shoal.strategies import contract
-from shoal.world.neighbors import within
+from shoal.world.neighbors import as_single, within, zero_of
 
 
 class Arrived(NamedTuple):
@@ -21,6 +21,10 @@ class Arrived(NamedTuple):
 
 class InTurn(Arrived):
     """The same where listeners decide one after the other, and cannot be lanes."""
+
+
+class Single(Arrived):
+    """The same where distances are in single precision."""
 
 
 class Listeners(NamedTuple):
@@ -68,9 +72,9 @@ def sum_by_lanes(arrived, listeners, links, params, agents, sums):
     sums : (S, L), one row per sum of the strategy and one lane per listener
     """
     square, said, told, at = links.square, arrived.said, arrived.told, arrived.at
-    none = everywhere(0.0)
+    none = everywhere(zero_of(links))
     for i in range(0, listeners.x.size, WIDTH):
-        me = listeners_from(listeners, i)
+        me = listeners_from(listeners, i, none)
         reach, heard, totals = take(links.reach, i, none), none, contract.no_sums(none, params)
         for j in range(agents):
             rank = contract.ranks_of(links.rank, j, i, params)
@@ -105,9 +109,26 @@ def sum_influence(arrived, listeners, links, params, agents, sums):
 
 
 @kernel
-def listeners_from(listeners, i):
-    """Lanes i, i + 1, ... of a block as one listener whose numbers are lanes."""
-    none = everywhere(0.0)
+def sum_single_by_lanes(arrived, listeners, links, params, agents, sums):
+    """The same in single precision."""
+    sum_by_lanes(arrived, listeners, as_single(links), params, agents, sums)
+
+
+@kernel
+def sum_single_influence(arrived, listeners, links, params, agents, sums):
+    """The same by distances in single precision."""
+    sum_influence(arrived, listeners, as_single(links), params, agents, sums)
+
+
+@kernel
+def choose_single_leaders(arrived, listeners, links, params, agents, leader, lowest):
+    """The same by distances in single precision."""
+    choose_leaders(arrived, listeners, as_single(links), params, agents, leader, lowest)
+
+
+@kernel
+def listeners_from(listeners, i, none):
+    """Lanes i, i + 1, ... of a block as one listener whose numbers are lanes, as precise as `none`."""
     briefing = Briefing(0, 0.0, 0.0, 0.0, 0.0, 0.0, False, 0.0, 0.0)
     truth = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     return Own(

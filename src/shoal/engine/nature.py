@@ -15,6 +15,7 @@ from shoal.world.placement import launch
 from shoal.world.radio import arrival_key, lose_reports, said, spoken
 from shoal.world.reception import measure_relayed, recall, relay, want_nearest
 from shoal.world.sea.sea import carry, span
+from shoal.world.neighbors import as_single
 from shoal.world.sea.sight import Places, hide_behind_land
 from shoal.world.targets.afloat import drift, stop_at_land
 
@@ -39,7 +40,11 @@ def hide(stage, number, first, batch, key):
     places = Places(reports.x, reports.y, radio.range_square)
     if world.inexact:  # reports tell what is believed; waves go by where all are
         places = Places(swarm.x, swarm.y, radio.range_square)
-    hide_behind_land(scratch.links, scratch.sight, places, part(stage, SEA).land, swarm.neighbors, first, world.agents)
+    land, sight = part(stage, SEA).land, scratch.sight
+    if world.single:
+        hide_behind_land(as_single(scratch.links), sight, places, land, swarm.neighbors, first, world.agents)
+    else:
+        hide_behind_land(scratch.links, sight, places, land, swarm.neighbors, first, world.agents)
     return 0
 
 

@@ -18,6 +18,7 @@ from shoal.core.draws import TARGET_STREAM, split
 from shoal.core.plugin_errors import plugin_errors
 from shoal.engine.ahead import Part, compile_ahead, compile_all
 from shoal.engine.frames import keep_frame, keep_links
+from shoal.engine.links import link, link_single, look_at_links, look_at_single, settle, settle_single
 from shoal.engine.many import link_many, look_at_many, settle_many
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
 from shoal.engine.nature import disturb_all, drift_targets, hide, launch_agent, receive, sail_all, stop_target
@@ -104,69 +105,6 @@ def record_frame(stage, number, frame, batch, key):
     """Keep the state at the start of a step as a frame."""
     keep_frame(part(stage, FRAMES), frame, number, part(stage, WORLD), part(stage, SWARM), part(stage, TARGETS))
     return 0
-
-
-@phase
-def link(stage, number, first, batch, key):
-    """Find out whom the agents from `first` on hear."""
-    world = part(stage, WORLD)
-    swarm = part(stage, SWARM)
-    radio = part(stage, RADIO)
-    scratch = part(stage, SCRATCH)
-    find_links(stage, scratch, world, swarm, radio, number, first, True)
-    return 0
-
-
-@kernel
-def find_links(stage, scratch, world, swarm, radio, number, first, keeps):
-    """Link the agents from `first` on to those whose reports may reach them, ties and losses aside.
-
-    keeps : whether agents remember what they hear now; else this is but a look
-    """
-    links = scratch.links
-    phases = part(stage, PHASES)
-    last = first + links.reach.size
-    links.wanted[:] = swarm.neighbors[first:last]
-    reports = said(radio, swarm, number)
-    measure_distances(
-        links, reports.x, reports.y, swarm.fix_x[first:last], swarm.fix_y[first:last], first, world.agents
-    )
-    if world.disturbed:
-        deafen(links, part(stage, NATURE).effects, first, world.agents)
-    range_square = radio.range_square
-    if world.inexact:
-        hide_far_away(links, swarm, range_square, first, world.agents)
-        range_square = np.inf
-    if world.coastal:
-        enter(phases.hide, stage, number, first, 0, 0)
-    if radio.limited:
-        limit_links(links, swarm, radio, first, world.agents, number, range_square)
-    if collects(radio):
-        enter(phases.receive, stage, number, first, 1 if keeps else 0, 0)
-    link_nearest(links, world.agents)
-    rank_heard(links, world.agents)
-
-
-@phase
-def settle(stage, number, first, batch, key):
-    """Settle ties and lose reports; returns 1 if links changed after their influence was summed."""
-    world = part(stage, WORLD)
-    swarm = part(stage, SWARM)
-    radio = part(stage, RADIO)
-    scratch = part(stage, SCRATCH)
-    return 1 if settle_links(scratch.links, world, swarm, radio, part(stage, RUN), number, first) else 0
-
-
-@kernel
-def settle_links(links, world, swarm, radio, run, number, first):
-    """Settle ties, by how many are heard, and lose reports; return whether links changed."""
-    changed = settle_ties(links, world.agents)
-    if radio.loss > 0.0 and not collects(radio):
-        lose_reports(links, radio, arrival_key(radio, run, number), first, world.agents)
-        changed = True
-    if changed:
-        rank_heard(links, world.agents)
-    return changed
 
 
 @phase
@@ -286,25 +224,6 @@ def come_to_rest(stage, number, first, batch, key):
     return 0 if finite else SPOILED_AGENTS
 
 
-@phase
-def look_at_links(stage, number, first, frame, key):
-    """Keep whom the agents from `first` on will hear in the coming step, which does not begin.
-
-    In the sequential order agents move one after the other: of later ones, whom they would hear if they were first.
-    """
-    frames = part(stage, FRAMES)
-    world = part(stage, WORLD)
-    swarm = part(stage, SWARM)
-    radio = part(stage, RADIO)
-    scratch = part(stage, SCRATCH)
-    links = scratch.links
-    find_links(stage, scratch, world, swarm, radio, number, first, False)
-    count_heard(links, world.agents)
-    settle_links(links, world, swarm, radio, part(stage, RUN), number, first)
-    keep_links(frames, frame, links, first, world.agents)
-    return 0
-
-
 def addresses(
     world: World,
     frames: bool = False,
@@ -326,15 +245,19 @@ def addresses(
     PluginError : what an installed package counts or moves cannot be compiled
     """
     at_sea = world.flowing or world.coastal
-    many = world.listed > 0
+    link_now, settle_now, look_now = link, settle, look_at_links
+    if world.single:
+        link_now, settle_now, look_now = link_single, settle_single, look_at_single
+    if world.listed:
+        link_now, settle_now, look_now = link_many, settle_many, look_at_many
     needed = [
         (sense_all, True),
         (disturb_all, world.disturbed),
         (record_frame, frames),
-        (link_many if many else link, True),
+        (link_now, True),
         (hide, world.coastal),
         (receive, collecting),
-        (settle_many if many else settle, True),
+        (settle_now, True),
         (record_links, frames),
         (move_agents, True),
         (sail_all, at_sea),
@@ -343,7 +266,7 @@ def addresses(
         (move_targets, True),
         (stop_target, world.coastal),
         (come_to_rest, True),
-        (look_at_many if many else look_at_links, looking),
+        (look_now, looking),
         (launch_agent, world.coastal),
     ]
     parts: list[Part] = [SET_OUT, *(each for each, wanted in needed if wanted)]

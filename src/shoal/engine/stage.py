@@ -127,7 +127,7 @@ def new_scratch(world: World, lanes: int, sums: int = 2, ranked: bool = False, c
     """
     width = 1 if world.sequential else lanes
     return Scratch(
-        links=new_links(world.agents, width, ranked, world.listed),
+        links=new_links(world.agents, width, ranked, world.listed, world.single),
         leader=np.zeros(width, np.int64),
         sums=aligned_zeros(sums * width).reshape((sums, width)),
         a=aligned_zeros(lanes),

@@ -6,7 +6,7 @@ from shoal.compiler.kernel import kernel
 from shoal.metrics.contract import Measurement, Metric, Sum
 from shoal.metrics.shares import share
 from shoal.world.lists import LANES
-from shoal.world.neighbors import within
+from shoal.world.neighbors import linked
 
 EVERY = 500  # steps between two looks at the graph
 
@@ -52,7 +52,7 @@ def cluster_all(links, alive, part, agents):
     linked_either_way = np.zeros((agents, words), np.int64)
     for i in range(agents):
         for j in range(agents):
-            if within(links, j, i) and alive[j] > 0.0:
+            if linked(links, j, i) and alive[j] > 0.0:
                 hears[i, j >> 5] |= 1 << (j & 31)
                 linked_either_way[i, j >> 5] |= 1 << (j & 31)
                 linked_either_way[j, i >> 5] |= 1 << (i & 31)

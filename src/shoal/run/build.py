@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from shoal.core.agents import KeptMemories, ListedMemories, Memories, TurnMemories, aligned_zeros, new_swarm
+from shoal.core.agents import KeptMemories, ListedMemories, Memories, SingleMemories, TurnMemories, aligned_zeros, new_swarm
 from shoal.core.declared import Declared
 from shoal.core.errors import PluginError, ScenarioError
 from shoal.engine.stage import new_nature
@@ -55,6 +55,7 @@ def build_world(scenario: Scenario, sea: Sea) -> World:
         coastal=sea.shore.distance.size > 1,
         ordered=False,
         listed=0,
+        single=scenario.precision == "single",
         target_radius=min(target.radius for target in scenario.targets),
     )
 
@@ -67,6 +68,8 @@ def kind_of_memories(scenario: Scenario, world: World) -> type[Memories]:
     """Return the class of a run's memories: which way to listen is compiled, see engine/arrivals.py."""
     if world.listed:
         return ListedMemories
+    if world.single:
+        return SingleMemories
     if scenario.network.max_age:
         return KeptMemories
     return TurnMemories if world.sequential else Memories

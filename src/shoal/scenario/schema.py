@@ -166,6 +166,10 @@ class Scenario(Frozen):
         default=(), max_length=MOST_ENTRIES, description="what agents are told during the run"
     )
     sea: Sea | None = Field(default=None, description="currents, wind and land; default: still, open water")
+    precision: Literal["double", "single"] = Field(
+        default="double",
+        description="of distances between agents and of what neighbors exert; single takes about half the time",
+    )
 
     _whole_steps = model_validator(mode="before")(with_whole_steps)
 
@@ -344,6 +348,19 @@ class Scenario(Frozen):
                 f"network.{name} is {getattr(self.network, name)}, but motion.update_order is sequential: agents hear "
                 f"what others have just done, which nobody keeps or relays; write synchronous, or leave {name} out"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _single_is_together(self) -> Self:
+        if self.precision == "single":
+            alone = "in single precision all agents decide at once, and by reports as they are sent"
+            if self.motion.update_order == "sequential":
+                raise ValueError(f"precision is single, but motion.update_order is sequential; {alone}: change either")
+            if self.network.collects:
+                name = "max_age" if self.network.max_age else "hops"
+                raise ValueError(
+                    f"precision is single, but network.{name} is {getattr(self.network, name)}; {alone}: change either"
+                )
         return self
 
     @model_validator(mode="after")

@@ -1,9 +1,10 @@
 """Building blocks that several strategies share."""
 
 import math
+from typing import Any
 
 from shoal.compiler.kernel import kernel, overload
-from shoal.compiler.lanes import bits_of, number_of
+from shoal.compiler.lanes import bits_of, number_of, precision_of
 
 
 @kernel
@@ -19,12 +20,11 @@ def inverse_power(me, other, exponent):
     if exponent == 6.0:
         push = inverse_seventh(square)
     else:
-        push = min(raised(square, -0.5 * (exponent + 1.0)), _LARGEST_PUSH)
+        push = bounded_power(square, -0.5 * (exponent + 1.0))
     return push * dx, push * dy
 
 
-@kernel
-def inverse_seventh(square):
+def inverse_seventh(square: Any) -> Any:
     """r^-7 of r^2 > 0, to 1e-15 of itself, at less than half the cost of a division and a square root.
 
     The guess of 1/r by halving the exponent in its bits is off by 3.5 %; a polynomial of how far 1/r^2 is off leaves
@@ -40,6 +40,39 @@ def inverse_seventh(square):
     off = 1.0 - square * inverse_square
     seventh = (inverse_square * inverse_square) * (inverse_square * inverse)
     return seventh + seventh * (off * (3.5 + off * 7.875))  # (1 - off)^(-7/2)
+
+
+def bounded_power(square: Any, exponent: Any) -> Any:
+    """A power of r^2 >= 0 [m^2], finite under any exponent: zero distance times it is zero."""
+    return min(raised(square, exponent), _LARGEST_PUSH)
+
+
+_double_seventh, _double_power = kernel(inverse_seventh), kernel(bounded_power)
+
+
+@kernel
+def _single_seventh(square):
+    """The same in single precision, whose division and root are fast."""
+    square = square + _SINGLE_SOFTENING
+    return 1.0 / (square * square * square * math.sqrt(square))
+
+
+@kernel
+def _single_power(square, exponent):
+    """The same in single precision, where the other softening is zero."""
+    return min(raised(square + _SINGLE_SOFTENING, exponent), _LARGEST_SINGLE)
+
+
+@overload(inverse_seventh, inline="always")
+def _seventh(square):
+    chosen = _single_seventh if precision_of(square) == "float32" else _double_seventh
+    return lambda square: chosen(square)
+
+
+@overload(bounded_power, inline="always")
+def _bounded(square, exponent):
+    chosen = _single_power if precision_of(square) == "float32" else _double_power
+    return lambda square, exponent: chosen(square, exponent)
 
 
 @kernel
@@ -194,4 +227,6 @@ def _common_divisor(a, b):
 
 _GUESS = 0x5FE6E90AB4188FA9  # the bits of 1/r are about this less half those of r^2
 _LARGEST_PUSH = 1e100  # finite under any exponent, so that zero distance times it is zero
+_LARGEST_SINGLE = 1e30
+_SINGLE_SOFTENING = 1e-10  # [m^2]: a hundredth of a millimeter
 _SOFTENING = 1e-60  # [m^2]: below the last digit of any distance that is not zero

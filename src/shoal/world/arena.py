@@ -18,6 +18,7 @@ class World(NamedTuple):
     flowing : there are currents or wind; windy : wind, and agents that it moves
     coastal : there is land, or a limit to where agents may go; ordered : agents are under orders
     listed : the most neighbors that an agent has where there are many, see world/lists.py; 0 elsewhere
+    single : distances and what neighbors exert are in single precision
     target_radius : of the smallest target
     """
 
@@ -41,4 +42,5 @@ class World(NamedTuple):
     coastal: bool
     ordered: bool
     listed: int
+    single: bool
     target_radius: float

@@ -7,11 +7,9 @@ last step's is a good first guess. `square` are squared distances [m^2] from spe
 import numpy as np
 
 from shoal.compiler.kernel import kernel
-from shoal.compiler.lanes import any_of, either, larger, smaller, take
+from shoal.compiler.lanes import almost_one, any_of, either, farthest, larger, smaller, take
 
 _ROUNDS = 40
-_BELOW = 1.0 - 2.0**-52
-_FARTHEST = 1e300
 
 
 @kernel
@@ -25,12 +23,12 @@ def reach_of(square, rows, i, wanted, reach):
     wanted : k of each; reach : a first guess
     """
     zero = 0.0 * wanted
-    low, high = zero, zero + _FARTHEST
+    low, high, shrunk = zero, farthest(reach), almost_one(reach)
     for attempt in range(_ROUNDS):
         heard, below, above = count_within(square, rows, i, reach, zero)
         low = either(heard < wanted, above, low)
         high = either(heard > wanted, below, high)
-        stepped = either(heard < wanted, above, below * _BELOW)
+        stepped = either(heard < wanted, above, below * shrunk)
         middle = 0.5 * (below + smaller(above, 4.0 * below))
         reach = either(heard == wanted, middle, stepped)
         missing = wanted - heard

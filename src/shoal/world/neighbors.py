@@ -10,10 +10,17 @@ from typing import NamedTuple
 import numpy as np
 
 from shoal.compiler.kernel import kernel
-from shoal.compiler.lanes import WIDTH, any_of, everywhere, put, take
+from shoal.compiler.lanes import WIDTH, any_of, everywhere, farthest, put, take
 from shoal.core.agents import aligned_zeros
 from shoal.world.lists import Lists, is_listed, new_lists
 from shoal.world.nearest import reach_of, settle_tie
+
+
+class Single(NamedTuple):
+    """`square` and `reach` of Links in single precision."""
+
+    square: np.ndarray
+    reach: np.ndarray
 
 
 class Links(NamedTuple):
@@ -24,7 +31,7 @@ class Links(NamedTuple):
     those not heard; it has no rows where the strategy does not ask.
 
     Where there are many agents, `lists` says who hears whom instead, and `square` and `rank` have no rows; `silent` are
-    those whom nobody can hear then.
+    those whom nobody can hear then. In single precision `single` does, and `square` has no rows.
     """
 
     square: np.ndarray
@@ -35,21 +42,27 @@ class Links(NamedTuple):
     order: np.ndarray
     silent: np.ndarray
     lists: Lists
+    single: Single
 
 
-def new_links(agents: int, lanes: int, ranked: bool = False, listed: int = 0) -> Links:
+def new_links(agents: int, lanes: int, ranked: bool = False, listed: int = 0, single: bool = False) -> Links:
     """Return links of `agents` speakers to `lanes` listeners; `ranked` ones know how many are nearer.
 
     listed : the most that an agent hears where there are many, and lists say whom; 0: distances of all pairs do
+    single : whether distances are in single precision
     """
     rows = 0 if listed else agents + agents % 2
-    square = aligned_zeros(rows * lanes).reshape((rows, lanes))
-    square[:] = np.inf
+
+    def squares(rows: int, kind: type) -> np.ndarray:
+        room = aligned_zeros(rows * lanes).view(kind)[: rows * lanes].reshape((rows, lanes))
+        room[:] = np.inf
+        return room
+
     reach = aligned_zeros(lanes)
     reach[:] = 1.0
     heard = np.zeros(lanes, np.int64)
     return Links(
-        square,
+        squares(0 if single else rows, np.float64),
         reach,
         heard,
         np.zeros(lanes, np.int64),
@@ -57,7 +70,31 @@ def new_links(agents: int, lanes: int, ranked: bool = False, listed: int = 0) ->
         np.zeros(agents if ranked and not listed else 0, np.int64),
         np.zeros(lanes if listed else 0, np.bool_),
         new_lists(agents if listed else 0, listed, ranked),
+        Single(squares(rows if single else 0, np.float32), reach.astype(np.float32)),
     )
+
+
+@kernel
+def as_single(links):
+    """The same links with distances in single precision, for kernels that go by these."""
+    single = links.single
+    return Links(
+        single.square,
+        single.reach,
+        links.heard,
+        links.wanted,
+        links.rank,
+        links.order,
+        links.silent,
+        links.lists,
+        single,
+    )
+
+
+@kernel
+def zero_of(links):
+    """Zero, as precise as the distances."""
+    return links.reach.dtype.type(0.0)
 
 
 @kernel
@@ -65,6 +102,8 @@ def linked(links, j, i):
     """Whether listener i hears speaker j, however neighbors are found."""
     if links.silent.size > 0:
         return is_listed(links.lists, j, i)
+    if links.square.shape[0] == 0:
+        return within(links.single, j, i)
     return within(links, j, i)
 
 
@@ -78,24 +117,23 @@ def within(links, j, i):
 def measure_distances(links, speaker_x, speaker_y, listener_x, listener_y, first, agents):
     """Fill `links.square`; listener lane i is agent first + i."""
     lanes = listener_x.size
-    square = links.square
-    for j in range(0, agents - 1, 2):
-        x, y = speaker_x[j], speaker_y[j]
-        next_x, next_y = speaker_x[j + 1], speaker_y[j + 1]
+    if lanes % WIDTH == 0:
+        for i in range(0, lanes, WIDTH):
+            _measure_from(links, speaker_x, speaker_y, listener_x, listener_y, i, everywhere(zero_of(links)), agents)
+    else:
         for i in range(lanes):
-            dx = listener_x[i] - x
-            dy = listener_y[i] - y
-            square[j, i] = dx * dx + dy * dy
-            dx = listener_x[i] - next_x
-            dy = listener_y[i] - next_y
-            square[j + 1, i] = dx * dx + dy * dy
-    if agents % 2:
-        for i in range(lanes):
-            dx = listener_x[i] - speaker_x[agents - 1]
-            dy = listener_y[i] - speaker_y[agents - 1]
-            square[agents - 1, i] = dx * dx + dy * dy
+            _measure_from(links, speaker_x, speaker_y, listener_x, listener_y, i, zero_of(links), agents)
     for i in range(min(lanes, agents - first)):
-        square[first + i, i] = np.inf
+        links.square[first + i, i] = np.inf
+
+
+@kernel
+def _measure_from(links, speaker_x, speaker_y, listener_x, listener_y, i, none, agents):
+    """Fill the columns of the listeners from i on, of as many as `none` has lanes."""
+    x, y = take(listener_x, i, none), take(listener_y, i, none)
+    for j in range(agents):
+        dx, dy = x - speaker_x[j], y - speaker_y[j]
+        put(links.square, (j, i), dx * dx + dy * dy)
 
 
 @kernel
@@ -107,10 +145,10 @@ def link_nearest(links, agents):
     lanes = links.reach.size
     if lanes % WIDTH == 0:
         for i in range(0, lanes, WIDTH):
-            _set_reach(links, i, everywhere(0.0), agents)
+            _set_reach(links, i, everywhere(zero_of(links)), agents)
     else:
         for i in range(lanes):
-            _set_reach(links, i, 0.0, agents)
+            _set_reach(links, i, zero_of(links), agents)
 
 
 @kernel
@@ -120,7 +158,7 @@ def _set_reach(links, i, none, agents):
     if any_of(wanted < agents - 1.0):
         put(links.reach, i, reach_of(links.square, links.square.shape[0], i, wanted, take(links.reach, i, none)))
     else:
-        put(links.reach, i, none + _FARTHEST)
+        put(links.reach, i, farthest(none))
 
 
 @kernel
@@ -142,9 +180,6 @@ def settle_ties(links, agents):
             links.reach[i] = settle_tie(links.square, agents, i, links.wanted[i], links.reach[i])
             corrected = True
     return corrected
-
-
-_FARTHEST = 1e300
 
 
 @kernel

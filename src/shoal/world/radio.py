@@ -9,7 +9,7 @@ from shoal.compiler.kernel import kernel
 from shoal.core.agents import Floats, both, width
 from shoal.core.draws import split, uniform
 from shoal.world.lists import note_contact
-from shoal.world.neighbors import within
+from shoal.world.neighbors import linked
 
 _LOSS = 1 << 33  # a stream of keys that neither agents nor targets draw from
 
@@ -253,11 +253,11 @@ def adapt_degree(swarm, radio, links, reports, first, last, world):
     for j in range(world.agents if links.silent.size == 0 else 0):
         if radio.max_age > 0:
             for i in range(last - first):
-                if within(links, j, i):
+                if linked(links, j, i):
                     contact[i] |= 1 if radio.on_target[row(radio, radio.heard[j, i]), j] else 0
         elif reports.on_target[j]:
             for i in range(last - first):
-                contact[i] |= 1 if within(links, j, i) else 0
+                contact[i] |= 1 if linked(links, j, i) else 0
     if links.silent.size > 0:
         note_contact(links.lists, reports, contact, last)
     weight = min(1.0, world.time_step / radio.patience)
