@@ -70,7 +70,7 @@ def handle(rows, flags, at, words, out):
     out[0] = truths(mask)
     out[1] = truths(mask_of(words[0]) & (counting(3) > 4))
     out[2] = 1 if any_of(mask_of(words[1])) else 0
-    put(rows, (0, 1), either(mask, gather(rows[2], take(at, 0, none)), smaller(row, larger(4.0, none))))
+    put(rows, (0, 1), either(mask, gather(rows[2], take(at, 0, none), none), smaller(row, larger(4.0, none))))
     put(out, 3, row + 0.75)
 
 

@@ -12,9 +12,10 @@ from shoal.world.lists import LANES, Reception, heard_of, is_listed, list_neares
 from shoal.world.neighbors import Links, linked, new_links
 
 
-def by_sorting(x, y, own_x, own_y, wanted, silent, range_square, true=None):
+def by_sorting(x, y, own_x, own_y, wanted, silent, range_square, true=None, kind=np.float64):
     """Whom each agent hears: of those that it can, the k nearest, ties to the lower index."""
     agents = len(x)
+    x, y, own_x, own_y = (each.astype(kind) for each in (x, y, own_x, own_y))
     square = (own_x[:, None] - x) ** 2 + (own_y[:, None] - y) ** 2
     far = square if true is None else (true[0] - true[0][:, None]) ** 2 + (true[1] - true[1][:, None]) ** 2
     square[silent[None, :] | (far > range_square) | np.eye(agents, dtype=bool)] = np.inf
@@ -40,7 +41,7 @@ class World:
         self.links.wanted[:] = most
 
     def listed(self, reports=None, **reception):
-        how = {"range_square": np.inf, "by_truth": False, "loss": 0.0, "key": np.uint64(1)} | reception
+        how = {"range_square": np.inf, "by_truth": False, "single": False, "loss": 0.0, "key": np.uint64(1)} | reception
         list_nearest(self.links, reports or self.swarm, self.swarm, Reception(**how), self.agents)
         return [self.heard_by(i) for i in range(self.agents)]
 
@@ -81,9 +82,10 @@ def test_random_worlds():
             links.wanted[:agents] = random.integers(0, k + 1, agents) if random.random() < 0.3 else k
             links.silent[:agents] = random.random(agents) < (0.3 if random.random() < 0.3 else 0.0)
             range_square = 10.0 ** random.uniform(-2, 3) if random.random() < 0.4 else np.inf
-            listed = world.listed(range_square=range_square)
-            x, y = swarm.x[:agents], swarm.y[:agents]
-            assert listed == by_sorting(x, y, x, y, links.wanted, links.silent[:agents], range_square)
+            single = bool(random.random() < 0.3)
+            listed = world.listed(range_square=range_square, single=single)
+            x, y, kind = swarm.x[:agents], swarm.y[:agents], np.float32 if single else np.float64
+            assert listed == by_sorting(x, y, x, y, links.wanted, links.silent[:agents], range_square, kind=kind)
             assert links.heard[:agents].tolist() == [len(each) for each in listed]
             swarm.x[:agents] += random.uniform(-1, 1, agents)
             swarm.fix_x[:] = swarm.x

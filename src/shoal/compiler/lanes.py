@@ -6,10 +6,11 @@
         heard = either(near, heard + 1.0, heard)
         put(count, i, heard)
 
-`take` takes as much as its last argument is, so that a kernel serves one agent as well as many. What is computed has
-the bits that it has one by one. LLVM makes vector code of loops over lanes, too, but keeps their sums in memory, which
-costs as much as the arithmetic. What numba makes of these functions is in vectors.py; without it lanes are small arrays
-of numpy. A branch cannot ask for a mask: functions with one do not compile for lanes (see engine/arrivals.py).
+`take` takes as much as its last argument is, so that a kernel serves one agent as well as many, and in single precision
+as well as in double. What is computed has the bits that it has one by one. LLVM makes vector code of loops over lanes,
+too, but keeps their sums in memory, which costs as much as the arithmetic. What numba makes of these functions is in
+vectors.py; without it lanes are small arrays of numpy. A branch cannot ask for a mask: functions with one do not
+compile for lanes (see engine/arrivals.py).
 """
 
 from importlib import import_module
@@ -24,6 +25,7 @@ WIDTH = 8  # doubles of an AVX-512 register; LLVM splits them where registers ar
 
 
 _DOUBLE, _WHOLE = Struct("=d"), Struct("=q")
+SMALLEST_SINGLE, LARGEST_SINGLE = 2.0**-126, 3.4e38
 FARTHEST = {"float64": 1e300, "float32": 1e38}
 ALMOST_ONE = {"float64": 1.0 - 2.0**-52, "float32": 1.0 - 2.0**-23}
 
@@ -48,6 +50,16 @@ def precision_of(kind: Any) -> str:
     return "float32" if "float32" in (str(kind), str(getattr(kind, "kind", ""))) else "float64"
 
 
+def narrow(number: Any) -> Any:
+    """A number, or lanes, in single precision."""
+    return number.astype(np.float32) if isinstance(number, np.ndarray) else np.float32(number)
+
+
+def wide(number: Any) -> Any:
+    """A number, or lanes, in double precision."""
+    return number.astype(np.float64) if isinstance(number, np.ndarray) else float(number)
+
+
 def counting(first: int) -> Any:
     """first, first + 1, ..."""
     return np.arange(first, first + WIDTH)
@@ -58,7 +70,8 @@ def take(array: Any, at: Any, like: Any) -> Any:
     if not isinstance(like, np.ndarray):
         return array[at]
     row, first = (array[at[0]], at[1]) if isinstance(at, tuple) else (array, at)
-    return row[first : first + WIDTH].copy()
+    taken = row[first : first + WIDTH].copy()
+    return taken.astype(like.dtype) if {taken.dtype.kind, like.dtype.kind} == {"f"} else taken
 
 
 def put(array: Any, at: Any, values: Any) -> None:
@@ -95,9 +108,9 @@ def number_of(bits: Any) -> Any:
     return _DOUBLE.unpack(_WHOLE.pack(bits))[0]
 
 
-def gather(array: Any, at: Any) -> Any:
-    """The entries of an array at the indices that lanes are."""
-    return array[at]
+def gather(array: Any, at: Any, like: Any) -> Any:
+    """The entries of an array at the indices that lanes are; numbers as precise as `like`."""
+    return array[at].astype(like.dtype) if array.dtype.kind == "f" else array[at]
 
 
 def truths(mask: Any) -> Any:

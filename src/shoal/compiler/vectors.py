@@ -22,6 +22,8 @@ from numba.extending import models, register_model
 from shoal.compiler.lanes import (
     ALMOST_ONE,
     FARTHEST,
+    LARGEST_SINGLE,
+    SMALLEST_SINGLE,
     WIDTH,
     almost_one,
     any_of,
@@ -33,12 +35,14 @@ from shoal.compiler.lanes import (
     gather,
     larger,
     mask_of,
+    narrow,
     number_of,
     precision_of,
     put,
     smaller,
     take,
     truths,
+    wide,
 )
 
 _TYPE: Any = types.Type  # numba has no types that mypy sees
@@ -70,7 +74,13 @@ FLOATS = Lanes(types.float64, ir.DoubleType())
 SINGLES = Lanes(types.float32, ir.FloatType())
 WHOLE = Lanes(types.int64, ir.IntType(64))
 MASK = Lanes(types.boolean, ir.IntType(1))
-_SIZES = {types.float64: 8, types.float32: 4, types.int64: 8, types.int32: 4, types.boolean: 1}  # in bytes: of what lanes are made of
+_SIZES = {
+    types.float64: 8,
+    types.float32: 4,
+    types.int64: 8,
+    types.int32: 4,
+    types.boolean: 1,
+}  # in bytes: of what lanes are made of
 
 
 @_model_of(Lanes)
@@ -97,6 +107,8 @@ def _are_numbers(*kinds: Any) -> bool:
 def _widened(context: Any, builder: Any, value: Any, kind: Any, to: Lanes) -> Any:
     """A number, or lanes of another kind, as lanes."""
     if not isinstance(kind, Lanes):
+        if to is SINGLES and isinstance(value, ir.Constant):
+            value = ir.Constant(value.type, _in_range(value.constant))
         return _spread(builder, context.cast(builder, value, kind, to.kind), to)
     if kind is to:
         return value
@@ -107,6 +119,14 @@ def _widened(context: Any, builder: Any, value: Any, kind: Any, to: Lanes) -> An
     if to is WHOLE:
         return builder.fptosi(value, to.vector)
     return builder.fptrunc(value, to.vector) if to is SINGLES else builder.fpext(value, to.vector)
+
+
+def _in_range(number: Any) -> Any:
+    """A constant as single precision has it: what keeps a division from zero is not zero, and no bound infinite."""
+    size = abs(number)
+    if not 0.0 < size < math.inf or SMALLEST_SINGLE <= size <= LARGEST_SINGLE:
+        return number
+    return math.copysign(min(max(size, SMALLEST_SINGLE), LARGEST_SINGLE), number)
 
 
 def _spread(builder: Any, scalar: Any, to: Lanes) -> Any:
@@ -308,6 +328,14 @@ def _constant_of(numbers: dict[str, float]) -> Callable[..., Any]:
     return code
 
 
+def _as_precise(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
+    if isinstance(result, Lanes):
+        return _widened(context, builder, arguments[0], kinds[0], result)
+    return context.cast(builder, arguments[0], kinds[0], result)
+
+
+_teach(narrow, lambda x: SINGLES if isinstance(x, Lanes) else types.float32, _as_precise, 1)
+_teach(wide, lambda x: FLOATS if isinstance(x, Lanes) else types.float64, _as_precise, 1)
 _teach(farthest, lambda like: like, _constant_of(FARTHEST), 1)
 _teach(almost_one, lambda like: like, _constant_of(ALMOST_ONE), 1)
 _teach(smaller, _kind_of_extreme, _extreme_of("<"), 2)
@@ -327,11 +355,6 @@ def _kind_of_take(array: Any, at: Any, like: Any) -> Any:
     if array.dtype is types.boolean:
         return MASK
     return like if isinstance(array.dtype, types.Float) and like in (FLOATS, SINGLES) else _common(array.dtype)
-
-
-def _kind_of_gather(array: Any, at: Any) -> Any:
-    _check(array)
-    return MASK if array.dtype is types.boolean else _common(array.dtype)
 
 
 def _taken(context: Any, builder: Any, kinds: Any, arguments: Any, result: Any) -> Any:
@@ -391,5 +414,5 @@ def _pointer(context: Any, builder: Any, array: Any, at: Any, arguments: Any) ->
 
 
 _teach(take, _kind_of_take, _taken, 3)
-_teach(gather, _kind_of_gather, _gathered, 2)
+_teach(gather, _kind_of_take, _gathered, 3)
 _teach(put, lambda array, at, values: _check(array), _put, 3)

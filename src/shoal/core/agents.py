@@ -132,6 +132,10 @@ class SingleMemories(Memories):
     """Memories in single precision: what is compiled for them goes by such distances, and lanes of such numbers."""
 
 
+class SingleListedMemories(Memories):
+    """Memories in single precision where there are many agents."""
+
+
 class KeptMemories(Memories):
     """Memories where reports are kept: what is compiled for them goes by a report of its own for each pair."""
 

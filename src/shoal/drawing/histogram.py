@@ -30,6 +30,10 @@ def draw_phi_histogram(axes: "Axes", record: Record) -> None:
         axes.text(0.5, 0.5, "no target was ever there", transform=axes.transAxes, ha="center", color=GRAY)
         return
     histogram = record.phi_histogram()  # (F, 11)
+    if not np.isfinite(histogram).all():
+        axes.set_yticks([])
+        axes.text(0.5, 0.5, "not measured", transform=axes.transAxes, ha="center", color=GRAY)
+        return
     names = [short_name(name) for name in record.facts.fleets]
     base = draw_phi_bars(axes, histogram, names)
     axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))

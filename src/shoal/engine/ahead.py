@@ -25,7 +25,16 @@ LONGEST = 900.0  # [s] that a cold start may take; older folders are of one that
 PATIENCE = 300.0  # [s] that a part of another process is waited for
 FEW = 3  # parts that this process compiles alone; every three more are worth a process
 MOST = 7  # such processes
-_LONG = ("move_agents", "sense_all", "set_out", "move_targets", "link", "link_single", "measure", "look_at_links")  # the longest first
+_LONG = (
+    "move_agents",
+    "sense_all",
+    "set_out",
+    "move_targets",
+    "link",
+    "link_single",
+    "measure",
+    "look_at_links",
+)  # the longest first
 _CODE = "from shoal.engine.ahead import help_compiling; help_compiling({folder!r}, {names!r}, {count})"
 
 

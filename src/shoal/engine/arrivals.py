@@ -8,9 +8,23 @@ compiles one of both, and nothing is asked while a run goes.
 from typing import Any
 
 from shoal.compiler.kernel import can_compile, kernel, overload
-from shoal.core.agents import KeptMemories, ListedMemories, Memories, SingleMemories, TurnMemories
+from shoal.core.agents import (
+    KeptMemories,
+    ListedMemories,
+    Memories,
+    SingleListedMemories,
+    SingleMemories,
+    TurnMemories,
+)
 from shoal.engine.kept import Kept, choose_kept_leaders, row_of, sum_kept_influence
-from shoal.engine.listed import Listed, choose_listed_leaders, sum_listed_by_lanes, sum_listed_influence
+from shoal.engine.listed import (
+    Listed,
+    SingleListed,
+    choose_listed_leaders,
+    sum_listed_by_lanes,
+    sum_listed_influence,
+    sum_single_listed_by_lanes,
+)
 from shoal.engine.listen import (
     Arrived,
     InTurn,
@@ -51,6 +65,12 @@ def _single(memories, radio, swarm, number, time_step):
 
 
 @kernel
+def _single_listed(memories, radio, swarm, number, time_step):
+    arrived = _arrived(memories, radio, swarm, number, time_step)
+    return SingleListed(arrived.said, arrived.told, arrived.at)
+
+
+@kernel
 def _listed(memories, radio, swarm, number, time_step):
     arrived = _arrived(memories, radio, swarm, number, time_step)
     return Listed(arrived.said, arrived.told, arrived.at)
@@ -67,6 +87,7 @@ _ARRIVING: dict[Any, Any] = {
     SingleMemories: _single,
     KeptMemories: _kept,
     ListedMemories: _listed,
+    SingleListedMemories: _single_listed,
 }
 _SUMMING: dict[Any, Any] = {
     Arrived: sum_influence,
@@ -74,11 +95,13 @@ _SUMMING: dict[Any, Any] = {
     Single: sum_single_influence,
     Kept: sum_kept_influence,
     Listed: sum_listed_influence,
+    SingleListed: sum_listed_influence,
 }
 _BY_LANES: dict[Any, Any] = {
     Arrived: sum_by_lanes,
     Single: sum_single_by_lanes,
     Listed: sum_listed_by_lanes,
+    SingleListed: sum_single_listed_by_lanes,
 }  # where influence has no branches
 _CHOOSING: dict[Any, Any] = {
     Arrived: choose_leaders,
@@ -86,6 +109,7 @@ _CHOOSING: dict[Any, Any] = {
     Single: choose_single_leaders,
     Kept: choose_kept_leaders,
     Listed: choose_listed_leaders,
+    SingleListed: choose_listed_leaders,
 }
 
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from shoal.compiler.kernel import kernel
-from shoal.compiler.lanes import everywhere, gather, mask_of, take
+from shoal.compiler.lanes import everywhere, gather, mask_of, narrow, take
 from shoal.core.messages import Briefing, Own, Report, Truth
 from shoal.engine.listen import listener_at
 from shoal.strategies import contract
@@ -24,15 +24,31 @@ class Listed(NamedTuple):
     at: float
 
 
+class SingleListed(Listed):
+    """The same in single precision."""
+
+
 @kernel
 def sum_listed_by_lanes(arrived, listeners, links, params, agents, sums):
     """Add up what the neighbors of each listener exert on it, (S, L): a block at a time."""
+    _sum_by_lanes(arrived, listeners, links, params, agents, sums, everywhere(0.0))
+
+
+@kernel
+def sum_single_listed_by_lanes(arrived, listeners, links, params, agents, sums):
+    """The same in single precision."""
+    _sum_by_lanes(arrived, listeners, links, params, agents, sums, narrow(everywhere(0.0)))
+
+
+@kernel
+def _sum_by_lanes(arrived, listeners, links, params, agents, sums, none):
+    """The same, as precise as `none`."""
     lists, said, told, at = links.lists, arrived.said, arrived.told, arrived.at
-    order, none = lists.cells.order, everywhere(0.0)
+    order = lists.cells.order
     block = np.empty((sums.shape[0], LANES))
     for number in range(lists.begins.size - 1):
         p = number * LANES
-        me, totals = listeners_at(listeners, lists.cells, p), contract.no_sums(none, params)
+        me, totals = listeners_at(listeners, lists.cells, p, none), contract.no_sums(none, params)
         for c in range(lists.begins[number], lists.begins[number + 1]):
             q = lists.near[c]
             j = order[q]
@@ -53,9 +69,8 @@ def _hand_out(block, order, p, sums, agents):
 
 
 @kernel
-def listeners_at(listeners, cells, p):
-    """The agents at places p, p + 1, ... as one listener whose numbers are lanes."""
-    none = everywhere(0.0)
+def listeners_at(listeners, cells, p, none):
+    """The agents at places p, p + 1, ... as one listener whose numbers are lanes, as precise as `none`."""
     i = take(cells.order, p, none)
     briefing = Briefing(0, 0.0, 0.0, 0.0, 0.0, 0.0, False, 0.0, 0.0)
     truth = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -63,13 +78,13 @@ def listeners_at(listeners, cells, p):
         i,
         take(cells.own_x, p, none),
         take(cells.own_y, p, none),
-        gather(listeners.vx, i),
-        gather(listeners.vy, i),
-        gather(listeners.on_target, i),
-        gather(listeners.max_speed, i),
+        gather(listeners.vx, i, none),
+        gather(listeners.vy, i, none),
+        gather(listeners.on_target, i, none),
+        gather(listeners.max_speed, i, none),
         listeners.time_step,
         listeners.time,
-        gather(listeners.fleet, i),
+        gather(listeners.fleet, i, none),
         briefing,
         truth,
         0.0,

@@ -32,7 +32,7 @@ def _find(links, world, swarm, radio, effects, run, number):
         deaf = (world.disturbed and effects[i].hears <= 0.0) or (radio.limited and swarm.alive[i] <= 0.0)
         links.wanted[i] = 0 if deaf else min(swarm.neighbors[i], most)
         links.silent[i] = radio.limited and (then < swarm.joins[i] or then >= swarm.leaves[i])
-    reception = Reception(radio.range_square, world.inexact, radio.loss, arrival_key(radio, run, number))
+    reception = Reception(radio.range_square, world.inexact, world.single, radio.loss, arrival_key(radio, run, number))
     list_nearest(links, said(radio, swarm, number), swarm, reception, world.agents)
 
 

@@ -3,11 +3,11 @@
 The kernels of all files of metrics are chained once, here, so that a moment is one kernel that numba can cache.
 """
 
-from collections.abc import Iterable
+from collections.abc import Collection
 
 from shoal.compiler.kernel import kernel
 from shoal.metrics.catalogue import MEASUREMENTS
-from shoal.metrics.contract import Kernel
+from shoal.metrics.contract import MOMENTS, Kernel
 
 
 @kernel
@@ -16,29 +16,41 @@ def _nothing(tally, step, world, swarm, targets, scratch):
 
 
 def _together(kernels):
-    """The kernel that runs up to six, one after the other: a chain of pairs would take twice as long to compile."""
-    first, second, third, fourth, fifth, sixth = [*kernels, *[_nothing] * 6][:6]
+    """The kernel that runs up to six, one after the other: a chain of pairs would take twice as long to compile.
+
+    kernels : each with its bit of world.skipped, 0 where it is never left out
+    """
+    chosen = [*kernels, *[(_nothing, 0)] * 6][:6]
+    (first, a), (second, b), (third, c), (fourth, d), (fifth, e), (sixth, f) = chosen
 
     @kernel
     def together(tally, step, world, swarm, targets, scratch):
-        first(tally, step, world, swarm, targets, scratch)
-        second(tally, step, world, swarm, targets, scratch)
-        third(tally, step, world, swarm, targets, scratch)
-        fourth(tally, step, world, swarm, targets, scratch)
-        fifth(tally, step, world, swarm, targets, scratch)
-        sixth(tally, step, world, swarm, targets, scratch)
+        if world.skipped & a == 0:
+            first(tally, step, world, swarm, targets, scratch)
+        if world.skipped & b == 0:
+            second(tally, step, world, swarm, targets, scratch)
+        if world.skipped & c == 0:
+            third(tally, step, world, swarm, targets, scratch)
+        if world.skipped & d == 0:
+            fourth(tally, step, world, swarm, targets, scratch)
+        if world.skipped & e == 0:
+            fifth(tally, step, world, swarm, targets, scratch)
+        if world.skipped & f == 0:
+            sixth(tally, step, world, swarm, targets, scratch)
 
     return together
 
 
-def chained(kernels: Iterable[Kernel | None]) -> Kernel:
-    """The kernel that runs all of these, in order."""
-    whole = [kernel(each) for each in kernels if each]
-    while len(whole) > 1:
-        whole = [_together(whole[first : first + 6]) for first in range(0, len(whole), 6)]
-    return whole[0] if whole else _nothing
+def chained(moment: str, besides: Collection[str] = ()) -> Kernel:
+    """The kernel of all that is counted at one of MOMENTS, in order, but for measurements of these names.
+
+    Those of which world.skipped has a bit are left out as it runs.
+    """
+    counts = [(number, getattr(each, moment)) for number, each in enumerate(MEASUREMENTS) if each.name not in besides]
+    whole = [(kernel(count), 1 << number) for number, count in counts if count]
+    while len(whole) > 1 or (whole and whole[0][1]):
+        whole = [(_together(whole[first : first + 6]), 0) for first in range(0, len(whole), 6)]
+    return whole[0][0] if whole else _nothing
 
 
-measure_before_move = chained(each.before_move for each in MEASUREMENTS)
-measure_links = chained(each.linked for each in MEASUREMENTS)
-measure_after_move = chained(each.after_move for each in MEASUREMENTS)
+measure_before_move, measure_links, measure_after_move = map(chained, MOMENTS)

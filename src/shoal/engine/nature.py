@@ -11,11 +11,11 @@ from shoal.core.draws import split
 from shoal.engine.stage import NATURE, RADIO, RUN, SCRATCH, SEA, SWARM, TARGETS, WORLD
 from shoal.world.disturbances.dispatch import disturb
 from shoal.world.motion import add_drift, sail, sail_coast
+from shoal.world.neighbors import as_single
 from shoal.world.placement import launch
 from shoal.world.radio import arrival_key, lose_reports, said, spoken
 from shoal.world.reception import measure_relayed, recall, relay, want_nearest
 from shoal.world.sea.sea import carry, span
-from shoal.world.neighbors import as_single
 from shoal.world.sea.sight import Places, hide_behind_land
 from shoal.world.targets.afloat import drift, stop_at_land
 

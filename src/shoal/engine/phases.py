@@ -28,7 +28,6 @@ from shoal.engine.stage import (
     NATURE,
     PHASES,
     RADIO,
-    RUN,
     SCRATCH,
     SEA,
     SWARM,
@@ -52,23 +51,17 @@ from shoal.world.motion import (
     note_drift,
     slow_down,
 )
-from shoal.world.neighbors import Links, count_heard, link_nearest, measure_distances, rank_heard, settle_ties
+from shoal.world.neighbors import Links
 from shoal.world.orders import obey
 from shoal.world.position import age_errors, locate
 from shoal.world.presence import update_presence
 from shoal.world.radio import (
     Radio,
     adapt_degree,
-    arrival_key,
-    deafen,
-    hide_far_away,
-    limit_links,
-    lose_reports,
     said,
     send,
     speaks,
 )
-from shoal.world.reception import collects
 from shoal.world.sensing import sense
 from shoal.world.targets.dispatch import advance_target
 

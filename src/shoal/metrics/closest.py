@@ -43,7 +43,7 @@ def least_of_all(swarm, agents, least):
 @kernel
 def least_in_cells(cells, reach, swarm, agents, least):
     """The same, of many agents: pairs that may be nearer than the nearest so far lie in cells around each other."""
-    put_into_cells(cells, swarm, swarm, reach, agents)
+    put_into_cells(cells, swarm, swarm, reach, agents, False)
     for turn in range(2):  # first with whoever comes next in a cell, so that there is little to look at after
         for p in range(agents):
             i = cells.order[p]

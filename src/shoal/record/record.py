@@ -107,12 +107,17 @@ class Record:
         return found
 
     def listed(self) -> list[str]:
-        """Metrics that say something of this scenario: what it has no target, battery or radio for is left out."""
+        """Metrics that say something of this scenario: what it has no target, battery or radio for is left out.
+
+        Of a scenario that names its metrics, these.
+        """
         several = len(self.scenario.targets) > 1
         return [
             name
             for name, each in METRICS.items()
-            if (several or not each.several_targets) and not (each.asked and np.isnan(self.estimate(name).mean))
+            if (several or not each.several_targets)
+            and not (each.asked and np.isnan(self.estimate(name).mean))
+            and (name in self.scenario.metrics or not self.scenario.metrics)
         ]
 
     def found_by(self, times: npt.ArrayLike, target: int | None = None) -> FoundShares:

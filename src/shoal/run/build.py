@@ -6,10 +6,20 @@ from typing import Any
 
 import numpy as np
 
-from shoal.core.agents import KeptMemories, ListedMemories, Memories, SingleMemories, TurnMemories, aligned_zeros, new_swarm
+from shoal.core.agents import (
+    KeptMemories,
+    ListedMemories,
+    Memories,
+    SingleListedMemories,
+    SingleMemories,
+    TurnMemories,
+    aligned_zeros,
+    new_swarm,
+)
 from shoal.core.declared import Declared
 from shoal.core.errors import PluginError, ScenarioError
 from shoal.engine.stage import new_nature
+from shoal.metrics.chosen import skipped
 from shoal.scenario.battery import drag_of
 from shoal.scenario.briefing import degrees, shares
 from shoal.scenario.crew import Crew
@@ -56,6 +66,7 @@ def build_world(scenario: Scenario, sea: Sea) -> World:
         ordered=False,
         listed=0,
         single=scenario.precision == "single",
+        skipped=skipped(scenario.metrics),
         target_radius=min(target.radius for target in scenario.targets),
     )
 
@@ -67,7 +78,7 @@ MOST_MEASURED = 10_000  # agents of which the distances of all pairs are kept: 8
 def kind_of_memories(scenario: Scenario, world: World) -> type[Memories]:
     """Return the class of a run's memories: which way to listen is compiled, see engine/arrivals.py."""
     if world.listed:
-        return ListedMemories
+        return SingleListedMemories if world.single else ListedMemories
     if world.single:
         return SingleMemories
     if scenario.network.max_age:

@@ -58,6 +58,7 @@ def why_not(scenario: Scenario) -> str | None:
     packages = {each.package for each in (*DECLARED, *KINDS) if each.package is not None}
     reasons = {
         "the sequential order (motion.update_order)": scenario.motion.update_order == "sequential",
+        "single precision (precision)": scenario.precision == "single",
         "disturbances": bool(scenario.disturbances),
         "currents, wind and land (sea)": scenario.sea is not None,
         f"more than {MOST_AGENTS} agents": scenario.agents > MOST_AGENTS,

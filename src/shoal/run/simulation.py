@@ -19,6 +19,7 @@ from shoal.core.version import RESULTS_VERSION
 from shoal.engine.phases import SPOILED_DRIFT, SPOILED_TARGETS, addresses
 from shoal.engine.rollout import begin_run, look, rollout, set_out
 from shoal.engine.stage import Frames, Run, Stage, new_frames, new_scratch
+from shoal.metrics.chosen import counted
 from shoal.metrics.tally import never_counted, new_tally
 from shoal.record.saved_state import read_state, write_state
 from shoal.record.trajectory import Trajectory
@@ -113,7 +114,7 @@ class Simulation:
         self._state = state_of(self._swarm, self._radio, self._targets, self._nature, self._tally)
         self.swarm, self.targets, self.memories = read_only(self._swarm), read_only(self._targets), read_only(memories)
         self.moment: State = read_only(self._state)
-        self.tally = self.moment.tally
+        self.tally = counted(self.moment.tally, self.world.skipped)
         self._scratch = self._new_scratch()
         self._begin, self._rollout = self.crew.compiled(begin_run, rollout)
         self._which = Run(np.uint64(scenario.seed), run, scenario.steps)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from html import escape
 from typing import Annotated, Any, Literal, Self, cast
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from shoal.core.agents import NEVER
 from shoal.core.errors import ScenarioError, ShoalError, did_you_mean
@@ -139,6 +139,11 @@ class Motion(Frozen):
     )
 
 
+def _split(names: Any) -> Any:
+    """Names in a text, set apart by commas, as options say them."""
+    return tuple(name.strip() for name in names.split(",") if name.strip()) if isinstance(names, str) else names
+
+
 class Scenario(Frozen):
     """All a run needs, nothing it produces."""
 
@@ -166,6 +171,9 @@ class Scenario(Frozen):
         default=(), max_length=MOST_ENTRIES, description="what agents are told during the run"
     )
     sea: Sea | None = Field(default=None, description="currents, wind and land; default: still, open water")
+    metrics: Annotated[tuple[str, ...], BeforeValidator(_split)] = Field(
+        default=(), max_length=MOST_ENTRIES, description="those that are measured; default: all"
+    )
     precision: Literal["double", "single"] = Field(
         default="double",
         description="of distances between agents and of what neighbors exert; single takes about half the time",
@@ -348,6 +356,17 @@ class Scenario(Frozen):
                 f"network.{name} is {getattr(self.network, name)}, but motion.update_order is sequential: agents hear "
                 f"what others have just done, which nobody keeps or relays; write synchronous, or leave {name} out"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _metrics_are_known(self) -> Self:
+        if type(self) is Scenario and self.metrics:  # a record may have those of packages that are not here
+            from shoal.metrics.summary import METRICS  # which takes its time
+
+            for name in self.metrics:
+                if name not in METRICS:
+                    hint = did_you_mean(name, METRICS) or f"there are: {', '.join(METRICS)}"
+                    raise ValueError(f"metrics has {quoted(name)}, which is none; {hint}")
         return self
 
     @model_validator(mode="after")

@@ -19,6 +19,7 @@ class World(NamedTuple):
     coastal : there is land, or a limit to where agents may go; ordered : agents are under orders
     listed : the most neighbors that an agent has where there are many, see world/lists.py; 0 elsewhere
     single : distances and what neighbors exert are in single precision
+    skipped : which measurements nobody asks for, a bit of each, see metrics/chosen.py
     target_radius : of the smallest target
     """
 
@@ -43,4 +44,5 @@ class World(NamedTuple):
     ordered: bool
     listed: int
     single: bool
+    skipped: int
     target_radius: float

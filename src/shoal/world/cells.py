@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shoal.compiler.kernel import kernel
+from shoal.compiler.lanes import narrow, wide
 from shoal.core.agents import Floats, aligned_zeros
 
 CELLS_PER_AGENT = 4  # at most
@@ -55,8 +56,11 @@ def new_cells(agents: int) -> Cells:
 
 
 @kernel
-def put_into_cells(cells, reports, swarm, reach, agents):
-    """Sort agents by the cell that their report is from, so large that about half a dozen rows lie within a reach."""
+def put_into_cells(cells, reports, swarm, reach, agents, single):
+    """Sort agents by the cell that their report is from, so large that about half a dozen rows lie within a reach.
+
+    single : places are rounded to single precision
+    """
     _lay_grid(cells.grid, reports, reach, agents, cells.begins.size - 2)
     grid, cell, begins = cells.grid, cells.cell, cells.begins
     columns = int(grid[4])
@@ -64,7 +68,8 @@ def put_into_cells(cells, reports, swarm, reach, agents):
     for each in range(used + 2):
         begins[each] = 0
     for i in range(agents):
-        inside = _cell(grid, row_of(grid, reports.y[i]), column_of(grid, reports.x[i]))
+        y, x = rounded(reports.y[i], single), rounded(reports.x[i], single)
+        inside = _cell(grid, row_of(grid, y), column_of(grid, x))
         cell[i] = inside
         begins[inside + 2] += 1
     for each in range(2, used + 2):
@@ -74,10 +79,16 @@ def put_into_cells(cells, reports, swarm, reach, agents):
         begins[cell[i] + 1] = at + 1
         cells.order[at] = i
         cells.place[i] = at
-        cells.x[at] = reports.x[i]
-        cells.y[at] = reports.y[i]
-        cells.own_x[at] = swarm.fix_x[i]
-        cells.own_y[at] = swarm.fix_y[i]
+        cells.x[at] = rounded(reports.x[i], single)
+        cells.y[at] = rounded(reports.y[i], single)
+        cells.own_x[at] = rounded(swarm.fix_x[i], single)
+        cells.own_y[at] = rounded(swarm.fix_y[i], single)
+
+
+@kernel
+def rounded(number, single):
+    """A number, rounded to single precision if that is asked for."""
+    return wide(narrow(number)) if single else number
 
 
 @kernel

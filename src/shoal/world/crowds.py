@@ -10,8 +10,9 @@ import numpy as np
 
 from shoal.compiler.kernel import kernel
 from shoal.world.cells import row_of, span
+from shoal.world.nearest import square_between
 
-_SLACK = 1e-9  # of a reach: rounding of edges of cells
+_SLACK = 1e-6  # of a reach: rounding of edges of cells, and of squares in single precision
 _MORE = 1.5  # agents to look for besides the k, so that they are among them in most steps
 _INDEX = (1 << 32) - 1  # tells the compiler that an index is not negative
 
@@ -80,9 +81,7 @@ def _look_around(lists, p, k, limit, reception, swarm):
                         limit = max(limit, distance[n])
             stop = min(end, begin + found.size - count)
             for q in range(begin, stop):
-                dx = x - cells.x[q & _INDEX]
-                dy = y - cells.y[q & _INDEX]
-                square = dx * dx + dy * dy
+                square = square_between(x, y, cells.x[q & _INDEX], cells.y[q & _INDEX], reception.single)
                 distance[count & _INDEX] = square
                 found[count & _INDEX] = q
                 count += 1 if square <= limit else 0

@@ -16,11 +16,11 @@ from shoal.core.agents import aligned_zeros
 from shoal.core.draws import split, uniform
 from shoal.world.cells import Cells, new_cells, put_into_cells, row_of, span
 from shoal.world.crowds import search_one
-from shoal.world.nearest import count_within, reach_of, settle_tie
+from shoal.world.nearest import count_within, reach_of, settle_tie, square_between
 
 LANES = WIDTH  # agents of a block; the last one may have fewer
 _PATIENCE = 24  # looks around a block before its agents are searched for one by one
-_SLACK = 1e-9  # of a reach: rounding of edges of cells
+_SLACK = 1e-6  # of a reach: rounding of edges of cells, and of squares in single precision
 _AHEAD = 1.15  # a block is looked around as far as its agents heard in the last step, and this much more (of squares)
 
 
@@ -86,10 +86,12 @@ class Reception(NamedTuple):
 
     range_square [m^2] : how far reports go; by_truth : that is from where agents are to where they are, not as they say
     loss : chance that a report is lost, by a draw of `key`
+    single : distances are in single precision
     """
 
     range_square: float
     by_truth: bool
+    single: bool
     loss: float
     key: Any
 
@@ -98,7 +100,7 @@ class Reception(NamedTuple):
 def list_nearest(links, reports, swarm, reception, agents):
     """Fill links.lists and links.heard: of each agent, links.wanted of those who are not in links.silent."""
     lists = links.lists
-    put_into_cells(lists.cells, reports, swarm, links.reach, agents)
+    put_into_cells(lists.cells, reports, swarm, links.reach, agents, reception.single)
     for i in range(agents):
         if links.silent[i]:
             lists.cells.x[lists.cells.place[i]] = np.nan  # nearest to nobody
@@ -194,7 +196,7 @@ def _look_around(lists, p, last):
         return 0
     radius = math.sqrt(farthest) * (1.0 + _SLACK)
     left, right, bottom, top = _box(cells, p, last)
-    limit = take(lists.limit, 0, everywhere(0.0))
+    limit = take(lists.limit, 0, everywhere(0.0)) * (1.0 + _SLACK)
     own_x, own_y = take(cells.own_x, p, limit), take(cells.own_y, p, limit)
     room, count = found.size - LANES, 0
     for row in range(row_of(grid, bottom - radius), row_of(grid, top + radius) + 1):
@@ -236,8 +238,7 @@ def _measure(lists, p, count, reception, swarm):
     true_x, true_y = take(lists.true_x, 0, none), take(lists.true_y, 0, none)
     for c in range(count):
         q = lists.sorted[c]
-        dx, dy = own_x - cells.x[q], own_y - cells.y[q]
-        square = dx * dx + dy * dy
+        square = square_between(own_x, own_y, cells.x[q], cells.y[q], reception.single)
         far = square
         if reception.by_truth:
             j = cells.order[q]

@@ -7,7 +7,7 @@ last step's is a good first guess. `square` are squared distances [m^2] from spe
 import numpy as np
 
 from shoal.compiler.kernel import kernel
-from shoal.compiler.lanes import almost_one, any_of, either, farthest, larger, smaller, take
+from shoal.compiler.lanes import almost_one, any_of, either, farthest, larger, narrow, smaller, take, wide
 
 _ROUNDS = 40
 
@@ -43,6 +43,16 @@ def reach_of(square, rows, i, wanted, reach):
         guess = either((guess < low) | (guess >= high), half, guess)
         reach = either(far_off, guess, reach)
     return reach
+
+
+@kernel
+def square_between(x, y, to_x, to_y, single):
+    """The square of a distance [m^2]; as it is in single precision, if that is asked for."""
+    if single:
+        short_x, short_y = narrow(x) - narrow(to_x), narrow(y) - narrow(to_y)
+        return wide(short_x * short_x + short_y * short_y)
+    dx, dy = x - to_x, y - to_y
+    return dx * dx + dy * dy
 
 
 @kernel

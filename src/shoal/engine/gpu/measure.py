@@ -9,8 +9,8 @@ from typing import Any
 import numba.cuda
 
 from shoal.engine.measure import chained
-from shoal.metrics.catalogue import MEASUREMENTS
 from shoal.metrics.closest import EVERY as EVERY_CLOSEST
+from shoal.metrics.contract import MOMENTS
 from shoal.metrics.coverage import count_cells, mark_cells
 from shoal.metrics.effort import add_effort
 from shoal.metrics.graph import EVERY as EVERY_GRAPH
@@ -32,10 +32,7 @@ SHARED = {
     "heading_bearing",
     "effort",
 }
-_rest = [each for each in MEASUREMENTS if each.name not in SHARED]
-_rest_before_move = chained(each.before_move for each in _rest)
-_rest_linked = chained(each.linked for each in _rest)
-_rest_after_move = chained(each.after_move for each in _rest)
+_rest_before_move, _rest_linked, _rest_after_move = (chained(moment, SHARED) for moment in MOMENTS)
 
 
 @_device

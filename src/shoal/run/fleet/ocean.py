@@ -132,7 +132,7 @@ def check_buoys_can(scenario: Scenario, crew: Crew) -> None:
     Raises
     ------
     StrategyError : they are told where targets are
-    ScenarioError : they decide one after the other, each on what the others have just done
+    ScenarioError : they decide one after the other, each on what the others have just done, or in single precision
     """
     informed = [each.name for each in crew.strategies if each.informed]
     if informed:
@@ -141,3 +141,6 @@ def check_buoys_can(scenario: Scenario, crew: Crew) -> None:
     if scenario.motion.update_order == "sequential":
         problem = "is sequential: agents decide one after the other, on what the others have just done"
         raise ScenarioError("motion.update_order", problem, "buoys decide at once: write synchronous")
+    if scenario.precision == "single":
+        problem = "is single, in which an engine adds up what all neighbors exert; a buoy has few, and is exact"
+        raise ScenarioError("precision", problem, "write double, or leave it out")
