@@ -47,8 +47,10 @@ def print_record(record: Record) -> None:
         table.add_row(METRICS[name].words, *_cells(record.estimate(name)), _unit(METRICS[name].unit))
     _add_parts(table, record)
     console.print(table)
-    console.print("phi histogram, agents per step from -1 (away) to +1 (toward):")
-    console.print("  " + " ".join(f"{agents:.2f}" for agents in record.phi_histogram().sum(axis=0)))
+    histogram = record.phi_histogram().sum(axis=0)
+    if not scenario.metrics or "stationary" in scenario.metrics:
+        console.print("phi histogram, agents per step from -1 (away) to +1 (toward):")
+        console.print("  " + " ".join(f"{agents:.2f}" for agents in histogram))
     short = ", ".join(METRICS[name].words for name in record.too_short())
     if short:
         text = textwrap.fill(f"too short for an interval of {short}: more steps or more runs determine it", 78)
@@ -60,8 +62,9 @@ def print_record(record: Record) -> None:
 def _add_parts(table: Table, record: Record) -> None:
     """Rows of every fleet, target and change of the swarm, where there are several; under a heading each."""
     fleets = record.facts.fleets if len(record.facts.fleets) > 1 else ()
-    by_fleet = {name: record.fleet_estimate(name) for name in _OF_FLEETS} if fleets else {}
-    for fleet in fleets:
+    listed = record.listed()
+    by_fleet = {name: record.fleet_estimate(name) for name in _OF_FLEETS if name in listed} if fleets else {}
+    for fleet in fleets if by_fleet else ():
         table.add_row(f"fleet {plain(fleet)}")
         for name, values in by_fleet.items():
             if METRICS[name].asked and math.isnan(values[fleet].mean):
