@@ -7,6 +7,8 @@ import pytest
 
 from shoal.core.errors import ScenarioError
 from shoal.drawing.summary import summary_figure
+from shoal.experiments.cells import make_cells
+from shoal.experiments.design import Design
 from shoal.metrics.catalogue import MEASUREMENTS
 from shoal.metrics.chosen import skipped
 from shoal.metrics.summary import METRICS
@@ -15,6 +17,7 @@ from shoal.record.files import open_record
 from shoal.run.simulate import simulate
 from shoal.run.simulation import Simulation
 from shoal.scenario.load import load
+from shoal.study.check import check
 
 STEPS = 1200
 
@@ -69,5 +72,9 @@ def test_which_they_are_is_part_of_a_scenario():
     named = load("oceans2020", metrics="xi, clustering")
     assert named.metrics == ("xi", "clustering")
     assert named.hash != load("oceans2020").hash
-    with pytest.raises(ScenarioError, match=r"metrics has 'clusterin', which is none\n  fix: did you mean"):
-        load("oceans2020", metrics="clusterin")
+
+
+@pytest.mark.parametrize("ask", [simulate, check, lambda scenario: make_cells(Design(scenario, ({},), 1), {})])
+def test_a_name_that_none_has(ask):
+    with pytest.raises(ScenarioError, match=r"metrics: has 'clusterin', which is none\n  fix: did you mean"):
+        ask(load("oceans2020", metrics="clusterin"))

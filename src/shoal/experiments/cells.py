@@ -8,6 +8,7 @@ from typing import Any
 from shoal.core.errors import ScenarioError
 from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.design import Design, Point
+from shoal.metrics.chosen import check_metrics
 from shoal.scenario.change import change
 from shoal.scenario.edit import apply
 from shoal.scenario.load import name_of_source, scenario_from, table_of
@@ -52,6 +53,7 @@ def make_cells(design: Design, changes: Point, *, independent: bool = False) -> 
         scenario = scenario_from(apply(base, point), where=f"{name} ({values})" if values else name)
         if independent:
             scenario = scenario.model_copy(update={"seed": _seed_of(scenario)})
+        check_metrics(scenario.metrics)
         called, choice = scenario.strategy.name, point.get("strategy")
         if isinstance(choice, str) and files.setdefault(called, choice) != choice:  # results could not tell them apart
             raise ScenarioError(f"{files[called]} and {choice}", f"are both called {called!r}", "give one another name")

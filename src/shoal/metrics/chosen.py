@@ -5,6 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from shoal.core.errors import ScenarioError, did_you_mean
+from shoal.core.text import quoted
 from shoal.metrics.catalogue import MEASUREMENTS
 from shoal.metrics.contract import Facts
 from shoal.metrics.summary import METRICS
@@ -27,12 +29,30 @@ class _Watched:
         return getattr(self._tally, name)
 
 
+def check_metrics(names: Iterable[str]) -> None:
+    """Refuse metrics that there are not.
+
+    Raises
+    ------
+    ScenarioError : no metric has a name
+    """
+    for name in names:
+        if name not in METRICS:
+            fix = did_you_mean(name, METRICS).rstrip() or f"there are: {', '.join(METRICS)}"
+            raise ScenarioError("metrics", f"has {quoted(name)}, which is none", fix)
+
+
 def skipped(metrics: Iterable[str]) -> int:
     """What need not be counted for metrics of these names, as bits: that of each of MEASUREMENTS. All if none is named.
 
     A metric needs what its own file counts, and what its formula asks for.
+
+    Raises
+    ------
+    ScenarioError : no metric has a name
     """
     names = set(metrics)
+    check_metrics(names)
     if not names:
         return 0
     sums = {name for metric in names for name in _sums_of(metric)}

@@ -359,17 +359,6 @@ class Scenario(Frozen):
         return self
 
     @model_validator(mode="after")
-    def _metrics_are_known(self) -> Self:
-        if type(self) is Scenario and self.metrics:  # a record may have those of packages that are not here
-            from shoal.metrics.summary import METRICS  # which takes its time
-
-            for name in self.metrics:
-                if name not in METRICS:
-                    hint = did_you_mean(name, METRICS) or f"there are: {', '.join(METRICS)}"
-                    raise ValueError(f"metrics has {quoted(name)}, which is none; {hint}")
-        return self
-
-    @model_validator(mode="after")
     def _single_is_together(self) -> Self:
         if self.precision == "single":
             alone = "in single precision all agents decide at once, and by reports as they are sent"

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from shoal.metrics.chosen import check_metrics
 from shoal.scenario.assumptions import assumptions
 from shoal.scenario.at_sea import open_sea
 from shoal.scenario.crew import crew_of
@@ -27,6 +28,7 @@ def check(scenario: Source, *, trials: bool = False, **changes: Any) -> list[str
     ScenarioError, TrackError, StrategyError : it cannot run: where, why, and how to fix it
     """
     known = load(scenario, **changes)
+    check_metrics(known.metrics)
     crew_of(known)
     opened = open_sea(known)
     notes = [*assumptions(known), *(opened.notes if opened else ())]

@@ -54,7 +54,7 @@ def new_links(agents: int, lanes: int, ranked: bool = False, listed: int = 0, si
     rows = 0 if listed else agents + agents % 2
 
     def squares(rows: int, kind: type) -> np.ndarray:
-        room = aligned_zeros(rows * lanes).view(kind)[: rows * lanes].reshape((rows, lanes))
+        room: np.ndarray = aligned_zeros(rows * lanes).view(kind)[: rows * lanes].reshape((rows, lanes))
         room[:] = np.inf
         return room
 

@@ -29,8 +29,8 @@ from shoal.engine.gpu.measure import (
     note_mean_velocity,
 )
 from shoal.engine.gpu.nearest import find_reach, measure
+from shoal.engine.links import settle_links
 from shoal.engine.listen import Arrived, Listeners
-from shoal.engine.phases import settle_links
 from shoal.engine.stage import (
     FRAMES,
     NATURE,
@@ -173,7 +173,7 @@ def listen_and_decide(stage, room, memories, params, now, i):
     rows = agents + agents % 2  # of distances; those of the next agent begin after one more, which is in another bank
     square, rank = column(room[i * (rows + 1) : i * (rows + 1) + rows]), others.rank[:, i:last]
     order = others.order[i * agents : last * agents] if others.rank.shape[0] > 0 else others.order
-    links = Links(square, reach, heard, wanted, rank, order, others.silent, others.lists)
+    links = Links(square, reach, heard, wanted, rank, order, others.silent, others.lists, others.single)
     reports = said(radio, swarm, number)
     measure(square, reports.x, reports.y, x[0], y[0], agents, i)
     wanted[0] = swarm.neighbors[i]
