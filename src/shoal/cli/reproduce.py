@@ -31,7 +31,7 @@ def reproduce(
     Parameters
     ----------
     paper
-        oceans2020 or aamas2020.
+        oceans2020, aamas2020, or of the authors' later work alife2023 or density2023.
     quick
         20,000 steps, 2 seeds and fewer k instead of 100,000 steps and 5 seeds: minutes instead of half an hour.
     readings

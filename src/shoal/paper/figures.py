@@ -3,7 +3,9 @@
 from collections.abc import Iterable
 from dataclasses import replace
 
+from shoal.paper.figures_alife import alife_figures
 from shoal.paper.figures_curves import k_figure, share_figure
+from shoal.paper.figures_density import density_figures
 from shoal.paper.figures_heading import heading_figure
 from shoal.paper.figures_histograms import phi_figure
 from shoal.paper.figures_published import published_figure
@@ -76,6 +78,26 @@ def make_aamas_figures(reproduction: Reproduction) -> list[Figure]:
     MissingExtraError : matplotlib is not installed
     """
     return _drawn([published_figure(reproduction.main, reproduction.tables.get("published", []))])
+
+
+def make_alife_figures(reproduction: Reproduction) -> list[Figure]:
+    """Return the figures of mixed fleets after a target that flees.
+
+    Raises
+    ------
+    MissingExtraError : matplotlib is not installed
+    """
+    return alife_figures(reproduction.groups)
+
+
+def make_density_figures(reproduction: Reproduction) -> list[Figure]:
+    """Return the figure of the density of a swarm.
+
+    Raises
+    ------
+    MissingExtraError : matplotlib is not installed
+    """
+    return density_figures(reproduction.groups)
 
 
 def _drawn(figures: Iterable[Figure | None]) -> list[Figure]:

@@ -1,14 +1,15 @@
 """What a reproduction runs: one sweep per group of runs, in full or quick."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from shoal.experiments.design import Design, Point, grid
+from shoal.paper.later_plan import DENSITY, EVASIVE, density_groups, evasive_groups
 from shoal.paper.side_plan import BASE, MEMORY, UNREPELLED, settings
 
-PAPERS = ("oceans2020", "aamas2020")
+PAPERS = ("oceans2020", "aamas2020", EVASIVE, DENSITY)
 PRINTED, REFIT = "oceans2020", "oceans2020-refit"  # the paper to the letter; the reading that meets most of it
 FULL_STEPS, QUICK_STEPS = 100_000, 20_000
 SPEEDS = (3.0, 5.0)  # of the target [m/s]
@@ -72,7 +73,7 @@ def make_plan(paper: str, *, quick: bool = False) -> Plan:
     KeyError : another paper
     """
     steps, seeds = (QUICK_STEPS, 2) if quick else (FULL_STEPS, 5)
-    groups = {"oceans2020": _oceans2020, "aamas2020": _aamas2020}[paper](quick, steps, seeds)
+    groups = _GROUPS[paper](quick, steps, seeds)
     return Plan(paper, quick, steps, seeds, tuple(groups))
 
 
@@ -116,6 +117,27 @@ def _aamas2020(quick: bool, steps: int, seeds: int) -> list[Group]:
     points = distinct(grid({"neighbors": _PUBLISHED_NEIGHBORS}))
     presets = ("aamas2020", "aamas2020-constant")
     return [Group(name, Design(name, points, seeds), {"steps": steps}, {"preset": name}) for name in presets]
+
+
+def _later(paper: str, points: Mapping[str, Sequence[Point]], steps: int, seeds: int) -> list[Group]:
+    """A sweep per group of a later paper."""
+    return [Group(name, Design(paper, tuple(each), seeds), {"steps": steps}) for name, each in points.items()]
+
+
+def _evasive(quick: bool, steps: int, seeds: int) -> list[Group]:
+    return _later(EVASIVE, evasive_groups(quick), steps, seeds)
+
+
+def _density(quick: bool, steps: int, seeds: int) -> list[Group]:
+    return _later(DENSITY, density_groups(quick), steps, seeds)
+
+
+_GROUPS: dict[str, Callable[[bool, int, int], list[Group]]] = {
+    "oceans2020": _oceans2020,
+    "aamas2020": _aamas2020,
+    EVASIVE: _evasive,
+    DENSITY: _density,
+}
 
 
 def _variants(neighbors: Sequence[int], steps: int, seeds: int) -> list[Group]:

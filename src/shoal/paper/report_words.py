@@ -1,7 +1,8 @@
 """What the report says in full sentences."""
 
-from shoal.paper import cases, readings, readings_study, statements
+from shoal.paper import alife_claims, cases, density_claims, readings, readings_study, statements
 from shoal.paper.curves import FEW
+from shoal.paper.leave_out import best_gain
 from shoal.paper.published import BARS
 
 TITLES = {
@@ -17,6 +18,16 @@ TITLES = {
     "aamas2020": (
         "Reproduction: Optimal Swarm Strategy for Dynamic Target Search and Tracking",
         "The published curves of Kwa, Leong Kit and Bouffanais, AAMAS 2020, simulated again with Shoal.",
+    ),
+    "alife2023": (
+        "Mixed fleets after a target that flees",
+        "What the abstract of Kwa, Babineau, Philippot and Bouffanais, Artificial Life 29, 2023, says, tried with Shoal. "
+        "Numbers of the setting are ours.",
+    ),
+    "density2023": (
+        "The density of a swarm",
+        "What the abstract of Kwa, Philippot and Bouffanais, Swarm Intelligence 17, 2023, says, tried with Shoal. "
+        "Numbers of the setting are ours.",
     ),
 }
 
@@ -67,6 +78,8 @@ def _rules(*docs: str | None) -> list[str]:
 
 
 METHOD = {
+    "alife2023": (_SEEDS, *_rules(alife_claims.__doc__, best_gain.__doc__), _RULE),
+    "density2023": (_SEEDS, *_rules(density_claims.__doc__, best_gain.__doc__), _RULE),
     "oceans2020-readings": (
         *_rules(readings.__doc__, statements.__doc__, readings_study.run_study.__doc__),
         _SEEDS,

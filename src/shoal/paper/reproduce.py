@@ -5,7 +5,7 @@ import os
 import platform
 import shlex
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numba
@@ -15,8 +15,11 @@ from shoal.core.errors import RecordError, ScenarioError
 from shoal.core.files import check_folder, write_atomic
 from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.experiments.rows import Row
+from shoal.paper.alife_claims import alife_claims
 from shoal.paper.claims import oceans_claims
 from shoal.paper.clusters import watch_clusters
+from shoal.paper.density_claims import density_claims
+from shoal.paper.later_plan import DENSITY, EVASIVE
 from shoal.paper.plan import (
     PAPERS,
     PRINTED,
@@ -55,7 +58,7 @@ def reproduce(
 
     Parameters
     ----------
-    paper : oceans2020 or aamas2020
+    paper : oceans2020, aamas2020, alife2023 or density2023
     quick : 20,000 steps, 2 seeds, fewer k
     readings : of oceans2020, instead of its claims, which reading of the paper meets most of them (readings.csv)
     jobs : threads, default one per core
@@ -71,7 +74,8 @@ def reproduce(
     KeyboardInterrupt : interrupted; all finished runs are kept
     """
     if paper not in PAPERS:
-        raise ScenarioError(str(paper), "is not a paper that Shoal can reproduce", f"choose {' or '.join(PAPERS)}")
+        choice = f"choose {', '.join(PAPERS[:-1])} or {PAPERS[-1]}"
+        raise ScenarioError(str(paper), "is not a paper that Shoal can reproduce", choice)
     if readings and paper != "oceans2020":
         raise ScenarioError(f"{paper} --readings", "are studied of oceans2020 only", "leave out --readings")
     begun, folder = time.monotonic(), Path(out)
@@ -81,7 +85,7 @@ def reproduce(
     else:
         plan = make_plan(paper, quick=quick)
         rows = run_plan(plan, folder, jobs, report, device)
-        found = (judge_oceans if paper == "oceans2020" else judge_aamas)(plan, rows)
+        found = _JUDGES[paper](plan, rows)
     found.command = _command(paper, folder, quick, readings, jobs, device)
     found.versions = _versions()
     _draw(found)
@@ -172,6 +176,28 @@ def judge_aamas(plan: Plan, rows: dict[str, list[Row]]) -> Reproduction:
     )
 
 
+def judge_alife(plan: Plan, rows: dict[str, list[Row]]) -> Reproduction:
+    """Four statements on mixed fleets after a target that flees."""
+    return Reproduction(
+        plan.paper, plan.quick, plan.steps, plan.seeds, rows["main"], [], claims=alife_claims(rows), groups=rows
+    )
+
+
+def judge_density(plan: Plan, rows: dict[str, list[Row]]) -> Reproduction:
+    """Five statements on the density of a swarm."""
+    return Reproduction(
+        plan.paper, plan.quick, plan.steps, plan.seeds, rows["side"], [], claims=density_claims(rows), groups=rows
+    )
+
+
+_JUDGES: dict[str, Callable[[Plan, dict[str, list[Row]]], Reproduction]] = {
+    "oceans2020": judge_oceans,
+    "aamas2020": judge_aamas,
+    EVASIVE: judge_alife,
+    DENSITY: judge_density,
+}
+
+
 def _claim_folder(out: Path, paper: str, quick: bool) -> None:
     """Remember whose folder this is, or refuse one of another reproduction with a plain sentence."""
     file = out / "plan.json"
@@ -201,9 +227,21 @@ def _kind(plan: dict[str, object]) -> str:
 
 
 def _draw(found: Reproduction) -> None:
-    from shoal.paper.figures import make_aamas_figures, make_figures, make_study_figures
+    from shoal.paper.figures import (
+        make_aamas_figures,
+        make_alife_figures,
+        make_density_figures,
+        make_figures,
+        make_study_figures,
+    )
 
-    makers = {"oceans2020": make_figures, "aamas2020": make_aamas_figures, STUDY: make_study_figures}
+    makers = {
+        "oceans2020": make_figures,
+        "aamas2020": make_aamas_figures,
+        STUDY: make_study_figures,
+        EVASIVE: make_alife_figures,
+        DENSITY: make_density_figures,
+    }
     found.figures = makers[found.paper](found)
 
 

@@ -54,7 +54,8 @@ class Reproduction:
     order of `claims`; `sides` are the rows of other settings under each reading, labeled by `side`.
     `main` has columns fast, neighbors, target_speed and sensitivity also variant. For aamas2020, `main` has the columns
     preset (aamas2020, aamas2020-constant) and neighbors, `sensitivity` is empty, and tables["published"] has one row
-    per cell compared: metric, neighbors, measured, low, high, published, residual, tolerance, verdict.
+    per cell compared: metric, neighbors, measured, low, high, published, residual, tolerance, verdict. For the later
+    papers `groups` are the rows of each sweep, `main` those of one of them.
     """
 
     paper: str
@@ -67,6 +68,7 @@ class Reproduction:
     refit: list[Row] = field(default_factory=list)
     refit_claims: list[Claim] = field(default_factory=list)
     sides: dict[str, list[Row]] = field(default_factory=dict)
+    groups: dict[str, list[Row]] = field(default_factory=dict)
     figures: list[Figure] = field(default_factory=list)
     tables: dict[str, list[Row]] = field(default_factory=dict)  # printed in the report and written as CSV
     command: str = ""
