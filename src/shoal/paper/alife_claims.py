@@ -5,6 +5,7 @@ runs. The best of several choices is judged by seeds that did not choose it (lea
 """
 
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 
 from shoal.experiments.rows import Row
 from shoal.paper.cases import case_text, count, percent, rising, verdict_of, worst
@@ -44,7 +45,7 @@ def e2(main: Sequence[Row]) -> Claim:
     """Cases: time on target with more fast buoys less that with fewer, of neighboring shares, at every k and speed."""
     gains = {}
     for speed in FLEES_AT:
-        for fewer, more in zip(SHARES, SHARES[1:], strict=False):
+        for fewer, more in pairwise(SHARES):
             gain = _curve(main, more, speed).minus(_curve(main, fewer, speed))
             gains |= {
                 f"{more} fast less {fewer}, k = {k:g}, {speed:g} m/s": values
@@ -80,9 +81,7 @@ def e4(main: Sequence[Row], fewer: Sequence[Row]) -> Claim:
             mixes = curve(fewer, "time_on_target", "fast", agents=agents, **{SPEED: speed})
             if UNEQUAL_AT[0] in base.x and mixes.x.size == len(FAST_OF_FEWER):
                 gains[f"{agents} buoys, {speed:g} m/s"] = best_gain(mixes.runs, base.at(UNEQUAL_AT[0]))
-    return _claim(
-        "E4", gains, f"against {AGENTS} buoys, {BASE_FAST} of them fast, fewer buoys gain {{}}", "alife_fewer"
-    )
+    return _claim("E4", gains, f"over {AGENTS} buoys with {BASE_FAST} fast ones, fewer gain {{}}", "alife_fewer")
 
 
 def _curve(rows: Sequence[Row], fast: int, speed: float) -> RunCurve:
@@ -97,5 +96,5 @@ def _curves(rows: Sequence[Row]) -> dict[str, RunCurve]:
 def _claim(id_: str, gains: Mapping[str, Floats], text: str, figure: str) -> Claim:
     cases = percent(rising(gains))
     least = worst(cases)
-    measured = f"{text.format(case_text(least, '% points', 1))}; {count(cases)}"
+    measured = f"{text.format(case_text(least, ' % points'))}; {count(cases)}"
     return Claim(id_, STATEMENTS[id_], measured, *least.number, "% points", verdict_of(cases), figure, *count(cases))

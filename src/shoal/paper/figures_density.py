@@ -57,8 +57,8 @@ def density_figures(rows: Mapping[str, Sequence[Row]]) -> list[Figure]:
             where_ = "outside upper left" if at == 0 else "outside lower right"
             figure.legend(handles, labels, loc=where_, ncols=columns, borderaxespad=0.2)
     caption = (
-        f"a to d: {AGENTS} agents in areas of 8 to 64 m, against their density, a curve per k. e, f: the number of agents "
-        f"at three fixed densities, k = {NUMBER_NEIGHBORS}. {seeds_text(side)}"
+        f"a to d: {AGENTS} agents in areas of 8 to 64 m, against their density, a curve per k. e, f: the number of "
+        f"agents at three fixed densities, k = {NUMBER_NEIGHBORS}. {seeds_text(side)}"
     )
     return [Figure("density", "Density: phases of tracking, and the number of agents", caption, figure, data)]
 
@@ -81,6 +81,9 @@ def _over_density(axes: "Axes", rows: Sequence[Row], quantity: Quantity) -> list
         curve(axes, points, f"k = {k}", color, marker)
         data += points.rows("density", quantity, curve=f"k = {k}")
     axes.set_xscale("log")
+    ticks = [tick for tick in (0.01, 0.03, 0.1, 0.3, 1.0) if tick < 1.1 * max(row["density"] for row in rows)]
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
     axes.set_xlabel("agents per m²")
     axes.set_ylabel(quantity.label)
     axes.grid(visible=True)

@@ -21,8 +21,8 @@ TITLES = {
     ),
     "alife2023": (
         "Mixed fleets after a target that flees",
-        "What the abstract of Kwa, Babineau, Philippot and Bouffanais, Artificial Life 29, 2023, says, tried with Shoal. "
-        "Numbers of the setting are ours.",
+        "What the abstract of Kwa, Babineau, Philippot and Bouffanais, Artificial Life 29, 2023, says, tried with "
+        "Shoal. Numbers of the setting are ours.",
     ),
     "density2023": (
         "The density of a swarm",
