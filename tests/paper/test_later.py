@@ -1,4 +1,4 @@
-"""The later papers: plans that can run, statements that hold on made-up rows where they should and not elsewhere, figures."""
+"""The later papers: plans that can run, statements that hold on made-up rows where they should, and only there."""
 
 import numpy as np
 import pytest
@@ -63,9 +63,8 @@ def density_rows(steep=True, response=True, trade=1.0, best=True, numbers=True):
 
     def engaged(point):
         agents = point.get("agents", 50)
-        size = 1.0 + (
-            0.5 * np.log2(agents / 25) if numbers and abs(octaves(point) - np.log2(agents / 50) / 2) < 0.1 else 0.0
-        )
+        amid = abs(octaves(point) - np.log2(agents / 50) / 2) < 0.1
+        size = 1.0 + (0.5 * np.log2(agents / 25) if numbers and amid else 0.0)
         return 2.0 * agents / 50 * size + trade * 0.02 * point["neighbors"]
 
     def coverage(point):

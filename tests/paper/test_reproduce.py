@@ -135,7 +135,7 @@ class TestRefused:
             reproduce("oceans2020", tmp_path)
 
     def test_a_paper_that_is_unknown(self, tmp_path):
-        with pytest.raises(ScenarioError, match="choose oceans2020 or aamas2020"):
+        with pytest.raises(ScenarioError, match="choose oceans2020, aamas2020, alife2023 or density2023"):
             reproduce("icra2030", tmp_path / "new")
         assert not (tmp_path / "new").exists()
 

@@ -12,7 +12,7 @@ from shoal.core.errors import ScenarioError, StrategyError
 from shoal.scenario.load import load, preset_text, presets, read_table, scenario_from, to_toml
 from shoal.scenario.schema import Scenario, json_schema
 
-PAPERS = ["aamas2020", "aamas2020-constant", "oceans2020", "oceans2020-refit"]
+PAPERS = ["aamas2020", "aamas2020-constant", "alife2023", "density2023", "oceans2020", "oceans2020-refit"]
 PRESETS = sorted([*PAPERS, "bay", "offshore"])
 
 
