@@ -33,9 +33,13 @@ def bay(changes):
 
 
 class TestPresets:
-    @pytest.mark.parametrize("name", [name for name in shoal.presets() if name not in AT_SEA])
+    @pytest.mark.parametrize("name", [name for name in shoal.presets() if name not in (*AT_SEA, "density2023")])
     def test_they_suit(self, name):
         assert shoal.check(name) == []
+
+    def test_one_lets_its_strategy_follow_the_density(self):
+        (told,) = shoal.check("density2023")
+        assert told.startswith("strategy knn-pso follows the scenario: repulsion_start = 0.501")
 
     @pytest.mark.parametrize("name", AT_SEA)
     def test_those_at_sea_say_what_follows_and_how_little_a_search_sees(self, name):

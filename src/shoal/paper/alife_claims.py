@@ -6,6 +6,7 @@ runs. The best of several choices is judged by seeds that did not choose it (lea
 
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
+from typing import Any
 
 from shoal.experiments.rows import Row
 from shoal.paper.cases import case_text, count, percent, rising, verdict_of, worst
@@ -43,7 +44,7 @@ def e1(main: Sequence[Row]) -> Claim:
 
 def e2(main: Sequence[Row]) -> Claim:
     """Cases: time on target with more fast buoys less that with fewer, of neighboring shares, at every k and speed."""
-    gains = {}
+    gains: dict[str, Floats] = {}
     for speed in FLEES_AT:
         for fewer, more in pairwise(SHARES):
             gain = _curve(main, more, speed).minus(_curve(main, fewer, speed))
@@ -85,7 +86,8 @@ def e4(main: Sequence[Row], fewer: Sequence[Row]) -> Claim:
 
 
 def _curve(rows: Sequence[Row], fast: int, speed: float) -> RunCurve:
-    return curve(rows, "time_on_target", fast=fast, **{SPEED: speed})
+    where: dict[str, Any] = {"fast": fast, SPEED: speed}
+    return curve(rows, "time_on_target", **where)
 
 
 def _curves(rows: Sequence[Row]) -> dict[str, RunCurve]:

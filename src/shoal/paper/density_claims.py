@@ -6,6 +6,7 @@ is the share of agents on target, exploration the area that agents newly pass th
 """
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -59,7 +60,7 @@ def d3(rows: Sequence[Row]) -> Claim:
     side = _transition(rows)
     gains = {}
     for name, metric, sign in (("on target", "engaged", 1.0), ("coverage", "coverage", -1.0)):
-        over_k = curve(rows, metric, **{"area.width": side})
+        over_k = _over_k(rows, metric, side)
         if over_k.x.size > 2:
             gains[f"{name}, side {side:g} m"] = sign * 10 * slopes(over_k) / over_k.runs.mean()
     return _claim("D3", gains, "ten neighbors more give {}", 100.0, "%")
@@ -69,7 +70,7 @@ def d4(rows: Sequence[Row]) -> Claim:
     """Cases: time on target at the best k less the mean over all k, at every side."""
     gains = {}
     for side in values_of(rows, "area.width"):
-        over_k = curve(rows, "time_on_target", **{"area.width": side})
+        over_k = _over_k(rows, "time_on_target", side)
         if over_k.x.size > 1:
             gains[f"side {side:g} m"] = best_gain(over_k.runs, over_k.runs.mean(axis=1))
     return _claim("D4", gains, "the best k gains {}", 100.0, "% points")
@@ -100,10 +101,16 @@ def _over_side(rows: Sequence[Row], metric: Measured) -> dict[float, RunCurve]:
     return {k: curve(rows, metric, "area.width", neighbors=k) for k in values_of(rows, "neighbors")}
 
 
+def _over_k(rows: Sequence[Row], metric: Measured, side: float) -> RunCurve:
+    """A metric over k in an area of this side."""
+    where: dict[str, Any] = {"area.width": side}
+    return curve(rows, metric, **where)
+
+
 def _transition(rows: Sequence[Row]) -> float:
     """The side at which Xi, the mean over k, is highest."""
     sides = values_of(rows, "area.width")
-    means = [curve(rows, "xi", **{"area.width": side}).runs.mean() for side in sides]
+    means = [_over_k(rows, "xi", side).runs.mean() for side in sides]
     return sides[best_place(np.array([means]))]
 
 

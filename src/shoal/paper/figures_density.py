@@ -52,10 +52,8 @@ def density_figures(rows: Mapping[str, Sequence[Row]]) -> list[Figure]:
             data += _over_number(axes, rows, quantity)
         for letter, axes in zip("abcdef", panels, strict=True):
             axes.set_title(letter, loc="left", fontweight="bold")
-        for at, columns in ((0, 5), (4, 3)):
-            handles, labels = panels[at].get_legend_handles_labels()
-            where_ = "outside upper left" if at == 0 else "outside lower right"
-            figure.legend(handles, labels, loc=where_, ncols=columns, borderaxespad=0.2)
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper left", ncols=5, borderaxespad=0.2)
+        figure.legend(*panels[4].get_legend_handles_labels(), loc="outside lower right", ncols=3, borderaxespad=0.2)
     caption = (
         f"a to d: {AGENTS} agents in areas of 8 to 64 m, against their density, a curve per k. e, f: the number of "
         f"agents at three fixed densities, k = {NUMBER_NEIGHBORS}. {seeds_text(side)}"
