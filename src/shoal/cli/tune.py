@@ -48,8 +48,8 @@ def tune(
     minimize
         The metric of which less is looked for.
     condition
-        Look at several conditions at once, by their mean; may be repeated: one of the arena's by its name ("half lost"),
-        as-it-is, or changes, target-speed=5,network.loss=0.2.
+        Look at several conditions at once, by their mean; may be repeated: one of the arena's by its name, such as
+        "half lost"; as-it-is; or changes, target-speed=5,network.loss=0.2.
     trials
         Points to try; default 50.
     runs

@@ -1,7 +1,8 @@
 """Which fleets to buy: the front of cost and metric, measured on fresh seeds, with intervals.
 
-Whatever fleet is on the front of the search, on that of its sampler or of its trials at random, is run again on seeds
-that the search has not seen: only those values are reported, since the best of many noisy ones are flattered by chance.
+Whatever fleet is on the front of the search, by its runs or as a surrogate expects it, or on that of the sampler or of
+the trials at random alone, is run again on seeds that the search has not seen: only those values are reported, since
+the best of many noisy ones are flattered by chance.
 """
 
 from collections.abc import Callable, Sequence
@@ -18,9 +19,11 @@ from shoal.experiments.evaluator import Evaluator, first_error
 from shoal.experiments.exchange_rate import ExchangeRate, exchange_rates
 from shoal.experiments.executors import Executor
 from shoal.experiments.fleet_range import costs_of
-from shoal.experiments.fleet_search import FleetSearch, FleetTrial, Tried, search_fleets, values_of
+from shoal.experiments.fleet_search import search_fleets, values_of
+from shoal.experiments.fleet_trial import FleetSearch, FleetTrial, Tried
 from shoal.experiments.front import Spread, dominated_for_sure, front, hypervolume
 from shoal.experiments.objective import Objective
+from shoal.experiments.promising import expected_front
 from shoal.experiments.rows import Row
 from shoal.experiments.suite import SuiteCondition
 from shoal.experiments.sweep import Progress
@@ -85,6 +88,17 @@ class FleetFront:
         return [each for each in self.alternatives if each.on_front]
 
     @property
+    def costs(self) -> tuple[float, ...]:
+        """Of one agent of every fleet of the scenario; 0 where it is not known."""
+        return costs_of_one(self.search)
+
+    @property
+    def free(self) -> list[int]:
+        """Numbers of the fleets whose count was searched."""
+        names = [each.name for each in self.search.scenario.fleets]
+        return [names.index(each.name) for each in self.search.fleets if not each.fixed]
+
+    @property
     def present(self) -> Alternative:
         """The fleet that the scenario has."""
         return next(each for each in self.alternatives if each.present)
@@ -131,6 +145,7 @@ def _finalists(search: FleetSearch, tried: Tried) -> list[FleetTrial]:
     found = list(tried["present"])
     for group in (*(tried[name] for name in SEARCHES), everything):
         found += [group[at] for at in front(*zip(*(each.means for each in group), strict=True))]
+    found += expected_front(search, everything)
     if not any(each.known for each in everything):
         reason = next((each.reason for each in everything if each.reason), "no run has one")
         raise ScenarioError(search.more.metric, f"no fleet has a value: {reason}", "correct the scenario or the metric")
@@ -186,12 +201,17 @@ def _worst(search: FleetSearch, values: Sequence[float]) -> float:
     return low if np.isfinite(low) else float(np.nanmin(values))
 
 
-def _rates(search: FleetSearch, tried: Tried) -> tuple[int, list[ExchangeRate]]:
-    """Exchange rates against the cheapest fleet whose count varies, from every trial."""
+def costs_of_one(search: FleetSearch) -> tuple[float, ...]:
+    """What one agent of every fleet of the scenario costs; 0 where that is not known."""
     costs = {each.name: each.cost or 0.0 for each in search.scenario.fleets}
     costs |= {each.name: each.cost for each in search.fleets if each.cost is not None}
-    free = [each.name for each in search.fleets if not each.fixed]
-    base = [each.name for each in search.scenario.fleets].index(min(free, key=lambda name: costs[name]))
+    return tuple(costs.values())
+
+
+def _rates(search: FleetSearch, tried: Tried) -> tuple[int, list[ExchangeRate]]:
+    """Exchange rates against the cheapest fleet whose count varies, from every trial."""
+    names, costs = [each.name for each in search.scenario.fleets], costs_of_one(search)
+    base = min((names.index(each.name) for each in search.fleets if not each.fixed), key=lambda at: costs[at])
     known = [each for several in tried.values() for each in several if each.known]
     others = [[each.place({**search.start, **trial.point}[each.field]) for each in search.variables] for trial in known]
     inside = [at for at, row in enumerate(others) if None not in row]

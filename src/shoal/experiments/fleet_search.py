@@ -1,109 +1,22 @@
 """The search of a design: which fleets are tried, by a sampler and at random, all with the same seeds.
 
-The sampler's trials are of two kinds, by turns: what optuna asks for, and the fleets halfway between two neighbors of
-the front so far, where most of it may be missing. The search at random is the yardstick: as many trials, by chance.
+The sampler's trials are of two kinds: what optuna asks for, and what adds most to the front by a surrogate of what was
+tried so far (promising.py); optuna is told of both. The search at random is the yardstick: as many trials, by chance.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
-
-import numpy as np
 
 from shoal.experiments.asker import STARTING, Asker
 from shoal.experiments.design import Point
 from shoal.experiments.evaluator import Evaluator, cells_or_reason
-from shoal.experiments.fleet_range import FleetRange
-from shoal.experiments.front import widest_gaps
-from shoal.experiments.objective import Objective
+from shoal.experiments.fleet_trial import FleetSearch, FleetTrial, Tried
+from shoal.experiments.promising import promising
 from shoal.experiments.rows import Row
-from shoal.experiments.start import value_of
-from shoal.experiments.variable import Variable
-from shoal.scenario.load import Source
 from shoal.scenario.schema import Scenario
 
 TOGETHER = 4  # trials that are asked for before the first of them is told
-FILLED = 2  # of them, those that fill gaps of the front
-
-Tried = dict[str, list["FleetTrial"]]  # of the present fleet, the sampler, and the search at random
-
-
-@dataclass(frozen=True)
-class FleetSearch:
-    """What is designed.
-
-    Attributes
-    ----------
-    source, changes, scenario : as given, its changes, and the two as one
-    fleets, variables : counts and costs of fleets, and what else may change
-    less, more : the metric of which less is looked for, and the one of which more is
-    trials, runs, final_runs : fleets that the sampler tries, and as many at random; runs of each; and at the end
-    """
-
-    source: Source
-    changes: Point
-    scenario: Scenario
-    fleets: Sequence[FleetRange]
-    variables: Sequence[Variable]
-    less: Objective
-    more: Objective
-    trials: int = 100
-    runs: int = 3
-    final_runs: int = 10
-
-    @property
-    def searched(self) -> list[Variable]:
-        """All that is searched: counts first."""
-        return [*(each.variable(self.scenario) for each in self.fleets if not each.fixed), *self.variables]
-
-    @property
-    def fields(self) -> list[str]:
-        """Names that points have."""
-        return [*self.present, *(each.field for each in self.variables)]
-
-    @property
-    def present(self) -> Point:
-        """The fleet that the scenario has."""
-        own = {each.name: each.count for each in self.scenario.fleets}
-        return {each.path(self.scenario, "count"): own[each.name] for each in self.fleets}
-
-    @property
-    def fixed(self) -> Point:
-        """Counts that are the same in all trials."""
-        return {each.path(self.scenario, "count"): each.most for each in self.fleets if each.fixed}
-
-    @property
-    def start(self) -> Point:
-        """What the scenario has of all that is searched."""
-        return {**self.present, **{each.field: value_of(self.scenario, each.field) for each in self.variables}}
-
-
-@dataclass(frozen=True)
-class FleetTrial:
-    """A point that was tried: agents of each fleet, and both metrics in every run; or why it could not run."""
-
-    point: Point
-    counts: tuple[int, ...] = ()
-    less: tuple[float, ...] = ()
-    more: tuple[float, ...] = ()
-    reason: str = ""
-
-    @property
-    def means(self) -> tuple[float, float]:
-        """Of both metrics over the runs; NaN where one has none."""
-        if not self.less:
-            return float("nan"), float("nan")
-        return float(np.mean(self.less)), float(np.mean(self.more))
-
-    @property
-    def known(self) -> bool:
-        """Whether both have a value."""
-        return bool(np.isfinite(self.means).all())
-
-    @property
-    def key(self) -> str:
-        """The same for the same point."""
-        return str(sorted(self.point.items()))
+PROMISING = 3  # of them, those that a surrogate chooses
 
 
 def search_fleets(search: FleetSearch, sampler: Asker, random: Asker, evaluator: Evaluator) -> Tried:
@@ -120,7 +33,7 @@ def search_fleets(search: FleetSearch, sampler: Asker, random: Asker, evaluator:
     for begun in range(0, search.trials, TOGETHER):
         count = min(TOGETHER, search.trials - begun)
         if begun >= STARTING:
-            for point in _halfway(search.searched, tried["sampler"]):
+            for point in promising(search, [present, *tried["sampler"]], min(PROMISING, count), begun):
                 sampler.prefer(point)
         for name, asker in (("sampler", sampler), ("random", random)):
             asked = [asker.ask() for _ in range(count)]
@@ -154,19 +67,6 @@ def _trial(search: FleetSearch, point: Point, scenario: Scenario, rows: Sequence
         more=values_of(rows, search.more.metric),
         reason=next((row["error"].splitlines()[0] for row in rows if row["status"] == "failed"), ""),
     )
-
-
-def _halfway(variables: Sequence[Variable], tried: Sequence[FleetTrial]) -> list[Point]:
-    """Points halfway between neighbors of the front that were not tried yet, of the widest gaps."""
-    known = [{each.field: trial.point.get(each.field) for each in variables} for trial in tried]
-    found: list[Point] = []
-    for one, other in widest_gaps([each.means[0] for each in tried], [each.means[1] for each in tried]):
-        point = {each.field: each.between(known[one][each.field], known[other][each.field]) for each in variables}
-        if point not in known and point not in found:
-            found.append(point)
-        if len(found) == FILLED:
-            break
-    return found
 
 
 def _value(row: Row, metric: str) -> float:

@@ -1,11 +1,12 @@
 """The front: what no other beats, by a metric of which less is better and one of which more is."""
 
-import itertools
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
 
 
 class Spread(NamedTuple):
@@ -45,14 +46,6 @@ def hypervolume(less: npt.ArrayLike, more: npt.ArrayLike, reference: tuple[float
     return float(area)
 
 
-def widest_gaps(less: npt.ArrayLike, more: npt.ArrayLike) -> list[tuple[int, int]]:
-    """Return pairs of neighbors of the front, those first between which most area may be missing."""
-    costs, values = np.asarray(less, float), np.asarray(more, float)
-    order = front(costs, values)
-    pairs = list(itertools.pairwise(order))
-    return sorted(pairs, key=lambda pair: -(costs[pair[1]] - costs[pair[0]]) * (values[pair[1]] - values[pair[0]]))
-
-
 def dominated_for_sure(less: Sequence[Spread], more: Sequence[Spread]) -> list[int | None]:
     """Return, for each of N points, one that dominates it beyond its interval and theirs; None where none does.
 
@@ -68,3 +61,23 @@ def dominated_for_sure(less: Sequence[Spread], more: Sequence[Spread]) -> list[i
 def _beats(less: Spread, more: Spread, than_less: Spread, than_more: Spread) -> bool:
     no_worse = less.high <= than_less.low and more.low >= than_more.high  # False with NaN
     return no_worse and (less.high < than_less.low or more.low > than_more.high)
+
+
+def gains(less: npt.ArrayLike, more: npt.ArrayLike, known: tuple[npt.ArrayLike, npt.ArrayLike], worst: float) -> Floats:
+    """Return the hypervolume that each of M points alone adds to the front of `known` ones, (M,).
+
+    Parameters
+    ----------
+    less, more : (M,) of the points
+    known : the same of N points
+    worst : the most of `less` that counts
+    """
+    costs, values = np.asarray(known[0], float), np.asarray(known[1], float)
+    order = front(costs, values)
+    steps = np.concatenate([[-np.inf], costs[order]])
+    ends = np.concatenate([costs[order], [worst]])
+    heights = np.concatenate([[min(0.0, float(np.nanmin(values)))], values[order]])
+    at, height = np.asarray(less, float)[:, None], np.asarray(more, float)[:, None]
+    added = np.maximum(ends - np.maximum(steps, at), 0.0) * np.maximum(height - heights, 0.0)
+    total: Floats = added.sum(axis=1)
+    return total

@@ -51,14 +51,22 @@ class Variable:
             return self.choices[int(place)]
         return place if self.whole else min(max(float(f"{place:.4g}"), self.low), self.high)
 
-    def between(self, one: Any, other: Any) -> Any:
-        """The value halfway between two; of choices that are no numbers, the first."""
-        if self.choices and not all(isinstance(each, (int, float)) for each in self.choices):
-            return one
-        low, high = sorted((self.place(one) or 0, self.place(other) or 0))
-        if self.by_logarithm and low > 0:
-            return self.value(math.sqrt(low * high))
-        return self.value((low + high) // 2 if self.whole else (low + high) / 2)
+    def spread(self, share: float) -> Any:
+        """The value at a share, from 0 to below 1, of the way from the low end to the high one."""
+        if self.whole:
+            return self.value(min(int(self.low + share * (self.high - self.low + 1)), self.high))
+        if self.by_logarithm:
+            return self.value(self.low * (self.high / self.low) ** share)
+        return self.value(self.low + share * (self.high - self.low))
+
+    def share(self, value: Any) -> float:
+        """How far a value is on the way from the low end, 0, to the high one, 1; 0.5 of one that is outside."""
+        place = self.place(value)
+        if place is None:
+            return 0.5
+        if self.by_logarithm:
+            return math.log(place / self.low) / math.log(self.high / self.low)
+        return float((place - self.low) / (self.high - self.low))
 
     def place(self, value: Any) -> Any | None:
         """The place of a value; None where the search cannot go."""

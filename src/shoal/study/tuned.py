@@ -75,7 +75,7 @@ class Tuned:
         return self.result.start_value
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """Return a row per trial: its fields, the mean over its runs, the value of each run, why it has none (extra: sweep).
+        """Return a row per trial: fields, mean over its runs, value of each run, why it has none (extra: sweep).
 
         Raises
         ------
@@ -153,7 +153,8 @@ class Tuned:
         if result.winner is result.start:
             return [*told, "no trial was better than the start"]
         gap = result.difference
-        ends = spread_text(gap.mean, *(gap.ci95 or (None, None)), 4)
+        low, high = gap.ci95 or (None, None)
+        ends = spread_text(gap.mean, low, high, 4)
         p = "" if gap.p is None else f", p {gap.p:.2g}"
         return [
             *told,
@@ -187,10 +188,10 @@ def tune(scenario: Source, vary: Mapping[str, Any], **changes: Any) -> Tuned:
     Parameters
     ----------
     scenario : a preset's name, a TOML file, a dict or a Scenario
-    vary : {field: range or values}: a tuple of two ends or text such as "5:40" is a range, continuous where an end has a
-        decimal point; a list or "5,10,20" are values
+    vary : {field: range or values}: a tuple of two ends or text such as "5:40" is a range, continuous where an end has
+        a decimal point; a list or "5,10,20" are values
     maximize, minimize : the metric of which more, or less, is looked for; one of the two
-    conditions : under which; the score is the mean over them: names of the arena's, or "target-speed=5,network.loss=0.2"
+    conditions : under which; the score is the mean over them: the arena's by name, or "target-speed=5,network.loss=0.2"
     trials : points to try; all share their seeds
     runs : of each trial under each condition
     final_runs : of start and winner, on fresh seeds
