@@ -6,8 +6,8 @@ The grid has 1 to 30 fast buoys at 3, 1 to 45 slow ones at 1, and five degrees k
 long as a trial of the design. The fronts that both report, the grid's by its own means and the design's by its final
 table, are then run again on seeds that neither has seen, and their hypervolumes are compared; reference point: the
 grid's highest cost, and no time on target. `strict` is a harder yardstick: the best of all that either reports and of
-the next two layers behind the grid's front, chosen by the judge's own seeds, which flatters it. Runs are kept in FOLDER: stopped, it goes on.
-The bar: >= 98 % of the grid's hypervolume for <= 5 % of its steps.
+the next two layers behind the grid's front, chosen by the judge's own runs, which flatters it. What is in FOLDER is not
+run again. The bar: >= 98 % of the grid's hypervolume for <= 5 % of its steps.
 """
 
 import argparse
@@ -70,7 +70,7 @@ def compare(asked, folder):
                    changes={"steps": asked.steps, "seed": JUDGE_SEED, **PRICES})  # fmt: skip
     areas = {name: area(judged, chosen) for name, chosen in (("grid", layers[0]), ("design", own), ("strict", every))}
     told("fronts", f"grid {len(layers[0])} fleets, design {len(own)}")
-    told("hypervolume", ", ".join(f"{name} {each / (WORST[0] * 1.0):.4f}" for name, each in areas.items()))
+    told("hypervolume", ", ".join(f"{name} {each / WORST[0]:.4f}" for name, each in areas.items()))
     ratio = areas["design"] / areas["grid"]
     told("design / grid", f"{100 * ratio:.2f} % of the hypervolume for {100 * share:.2f} % of the steps")
     told("design / strict", f"{100 * areas['design'] / areas['strict']:.2f} %; grid / strict "

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from shoal.drawing.style import FLEET_COLORS, GRAY, INK, TARGET, new_figure, style
+from shoal.drawing.words import shorten
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
 _WIDTH, _HEIGHT = 6.6, 4.2  # [in]
 _FRONT = FLEET_COLORS[0]
 _LABELED = 7  # points of the front that are named
+_LEFT = 0.1  # of the width: where there is room for a name left of its point
 _APART = 0.055  # of the height: names are not closer
 
 
@@ -34,34 +36,38 @@ class Place:
     present: bool = False
 
 
-def front_figure(places: Sequence[Place], tried: Sequence[tuple[float, float]], x_label: str, y_label: str) -> "Figure":
+def front_figure(
+    places: Sequence[Place], tried: Sequence[tuple[float, float]], labels: tuple[str, str], fleets: str
+) -> "Figure":
     """Return a figure of the front.
 
     Parameters
     ----------
     places : fleets that were run again, cheapest first
     tried : both metrics of every trial of the search
+    labels : of both metrics
+    fleets : what the names of places are made of, such as "fast + slow"
     """
     with style():
         figure = new_figure(_WIDTH, _HEIGHT)
         axes = figure.add_axes((0.09, 0.16, 0.88, 0.73))
         axes.plot(*np.array(tried, float).reshape(-1, 2).T, ".", color="#c4c4c4", markersize=4, markeredgewidth=0,
-                  label="tried in the search", gid="tried", zorder=1.5)  # fmt: skip
-        kinds = {"beaten": ("x", GRAY, "dominated for sure"), "behind": ("o", GRAY, "behind the front, by its mean")}
+                  label="tried", gid="tried", zorder=1.5)  # fmt: skip
+        kinds = {"beaten": ("x", GRAY, "dominated for sure"), "behind": ("o", GRAY, "behind, by its mean")}
         for kind, (marker, color, label) in kinds.items():
             _draw(axes, [each for each in places if each.kind == kind and not each.present], marker, color, label)
         best = [each for each in places if each.kind == "front"]
         axes.step([each.less for each in best], [each.more for each in best], where="post", color=_FRONT,
                   linewidth=1.0, alpha=0.6)  # fmt: skip
         _draw(axes, [each for each in best if not each.present], "o", _FRONT, "on the front")
-        _draw(axes, [each for each in places if each.present], "D", TARGET, "the scenario's own fleet")
-        axes.set_xlabel(x_label)
-        axes.set_title(y_label, pad=22)
+        _draw(axes, [each for each in places if each.present], "D", TARGET, "own fleet")
+        axes.set_xlabel(labels[0])
+        axes.set_title(labels[1], pad=22)
         axes.set_xlim(left=0.0)
         axes.grid(visible=True)
         _name(axes, best)
         axes.legend(loc="lower left", bbox_to_anchor=(-0.01, 0.995), ncols=5, borderaxespad=0.1)
-        note = "whiskers: 95 % interval over runs on fresh seeds; names: agents of each fleet"
+        note = f"whiskers: 95 % interval over runs on fresh seeds; numbers: {shorten(fleets, 60)}"
         figure.text(0.97, 0.015, note, ha="right", va="bottom", fontsize=7, color=GRAY)
     return figure
 
@@ -81,7 +87,9 @@ def _draw(axes: "Axes", places: Sequence[Place], marker: str, color: str, label:
 
 
 def _name(axes: "Axes", best: Sequence[Place]) -> None:
-    """Name some of the front, evenly over its height, to the right of and below the point."""
+    """Name some of the front, evenly over its height, where no fleet is: to the left of and above the point."""
+    from matplotlib.patheffects import withStroke
+
     bottom, top = axes.get_ylim()
     wanted = np.linspace(best[0].more, best[-1].more, _LABELED)
     last = -np.inf
@@ -89,5 +97,9 @@ def _name(axes: "Axes", best: Sequence[Place]) -> None:
         if best[at].more - last < _APART * (top - bottom):
             continue
         last = best[at].more
-        axes.annotate(best[at].name, (best[at].less, best[at].more), xytext=(6, -9), textcoords="offset points",
-                      fontsize=7.5, color=INK, zorder=4)  # fmt: skip
+        left = best[at].less > _LEFT * axes.get_xlim()[1]
+        text = axes.annotate(
+            best[at].name, (best[at].less, best[at].more), xytext=(-5, 4) if left else (6, -9),
+            textcoords="offset points", ha="right" if left else "left", fontsize=7.5, color=INK, zorder=4,
+        )  # fmt: skip
+        text.set_path_effects([withStroke(linewidth=2.5, foreground="white")])

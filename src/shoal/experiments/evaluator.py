@@ -33,7 +33,7 @@ class Evaluator:
     scenario, changes : what is searched
     conditions : under which; each has its store in a folder of its own, unless there is one only
     folder : of the stores
-    fields : names that points may have
+    start : what the scenario has of all fields that points may have; the stores show it where a point says nothing
     executor : where runs happen
     report : called after every run with `progress`
     """
@@ -44,18 +44,18 @@ class Evaluator:
         changes: Mapping[str, Any],
         conditions: Sequence[SuiteCondition],
         folder: Path,
-        fields: Sequence[str],
+        start: Point,
         executor: Executor,
         report: Callable[[Progress], None] | None = None,
     ) -> None:
         self.progress = Progress(total=0, before=0)
         self.steps = 0  # of all runs that were asked for, whenever they were run
         self._name = name_of_source(scenario)
-        self._execute, self._report = executor, report
+        self._execute, self._report, self._start = executor, report, start
         table = table_of(scenario)
         self._places: list[tuple[dict[str, Any], Store]] = []
         for each in conditions:
-            design = Design(scenario, (dict.fromkeys(fields),), 1)
+            design = Design(scenario, (start,), 1)
             said = {**changes, **each.changes}
             place = folder / each.folder if len(conditions) > 1 else folder
             self._places.append((change(table, said), Store(place, _identity(design, said))))
@@ -107,7 +107,7 @@ class Evaluator:
     def _kept(self, missing: list[Task], known: dict[str, Row]) -> Iterator[tuple[Cell, int, Row]]:
         for cell, run, row in self._execute(missing) if missing else ():
             known[cell.run_id(run)] = row
-            yield cell, run, row
+            yield Cell({**self._start, **cell.shown}, cell.scenario), run, row
 
 
 def cell_of(base: dict[str, Any], point: Point, name: str) -> Cell:
@@ -162,4 +162,4 @@ def cells_or_reason(evaluator: Evaluator, point: Point) -> tuple[list[Cell], str
     try:
         return evaluator.cells(point), ""
     except ScenarioError as error:
-        return [], str(error.args[1])
+        return [], str(error).splitlines()[0]

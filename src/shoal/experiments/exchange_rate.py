@@ -17,7 +17,9 @@ from shoal.record.statistics import t_quantile
 
 GROUPS = 20  # of the jackknife
 _LEAST, _MOST = 1 / 50, 50.0  # a weight at an end of what is looked at is not known
-_COARSE, _FINE = 41, 9  # weights looked at: first over all, then between the neighbors of the best
+_COARSE = 41  # weights looked at first
+_GOLDEN, _HALVINGS = (math.sqrt(5) - 1) / 2, 18  # of the golden section: to a ten-thousandth
+_TELLS = 6.0  # F of the three terms in log s, at least: pure noise is beyond it once in a thousand
 _ROUNDS = 3  # over all fleets, where there are three or more
 _SPARE = 8  # fleets beyond the coefficients, at least
 
@@ -54,6 +56,10 @@ def exchange_rates(
     if not free or worth.size < 4 + 2 * scaled.shape[1] + len(free) + _SPARE:
         return []
     whole = _logs(agents, scaled, worth, free)
+    weights = np.ones(agents.shape[1])
+    weights[free] = np.exp(whole)
+    if not _tells(agents @ weights, scaled, worth):
+        return []
     groups = min(GROUPS, worth.size)
     group = np.arange(worth.size) % groups
     kept = [group != each for each in range(groups)]
@@ -82,21 +88,45 @@ def _misfit_by(agents: Floats, rest: Floats, worth: Floats, weights: Floats, fle
     def misfit(log_weight: float) -> float:
         tried = weights.copy()
         tried[fleet] = math.exp(log_weight)
-        logs = np.log(agents @ tried)
-        columns = np.column_stack([np.ones_like(logs), logs, logs**2, logs**3, rest, rest**2])
-        solved = np.linalg.lstsq(columns, worth, rcond=None)[0]
-        return float(((worth - columns @ solved) ** 2).sum())
+        return _left(_columns(agents @ tried, rest), worth)
 
     return misfit
 
 
+def _tells(strength: Floats, rest: Floats, worth: Floats) -> bool:
+    """Whether strength explains more of the worth than noise would (F test of its three terms)."""
+    columns = _columns(strength, rest)
+    left, without = _left(columns, worth), _left(np.delete(columns, [1, 2, 3], axis=1), worth)
+    degrees = worth.size - columns.shape[1]
+    return bool((without - left) / 3 > _TELLS * left / degrees)
+
+
+def _columns(strength: Floats, rest: Floats) -> Floats:
+    logs = np.log(strength)
+    return np.column_stack([np.ones_like(logs), logs, logs**2, logs**3, rest, rest**2])
+
+
+def _left(columns: Floats, worth: Floats) -> float:
+    solved = np.linalg.lstsq(columns, worth, rcond=None)[0]
+    return float(((worth - columns @ solved) ** 2).sum())
+
+
 def _least(misfit: Callable[[float], float]) -> float:
-    """Where a function of one variable is least: over a coarse grid, then two finer ones, then a parabola."""
-    low, high = math.log(_LEAST), math.log(_MOST)
-    for points in (_COARSE, _FINE, _FINE):
-        tried = np.linspace(low, high, points)
-        best = int(np.argmin([misfit(float(each)) for each in tried]))
-        low, high = float(tried[max(best - 1, 0)]), float(tried[min(best + 1, points - 1)])
+    """Where a function of one variable is least: over a grid, then by the golden section around its best."""
+    tried = np.linspace(math.log(_LEAST), math.log(_MOST), _COARSE)
+    best = int(np.argmin([misfit(float(each)) for each in tried]))
+    low, high = float(tried[max(best - 1, 0)]), float(tried[min(best + 1, _COARSE - 1)])
+    one, other = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+    at_one, at_other = misfit(one), misfit(other)
+    for _ in range(_HALVINGS):
+        if at_one < at_other:
+            high, other, at_other = other, one, at_one
+            one = high - _GOLDEN * (high - low)
+            at_one = misfit(one)
+        else:
+            low, one, at_one = one, other, at_other
+            other = low + _GOLDEN * (high - low)
+            at_other = misfit(other)
     return (low + high) / 2
 
 

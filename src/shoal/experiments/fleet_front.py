@@ -118,20 +118,21 @@ def design_fleets(
     seed, goals = search.scenario.seed, [search.less, search.more]
     sampler = Asker(search.searched, goals, "tpe", seed)
     random = Asker(search.searched, goals, "random", fresh_seed(seed))
-    check_fields(search.scenario, search.fields, search.changes)
-    check_folder(folder, STORES)
+    check_fields(search.scenario, list(search.start), search.changes)
     changes = {**search.changes, **costs_of(search.fleets, search.scenario)}
     only = [SuiteCondition("all", "the scenario as it is", search.more.metric)]
-    with Evaluator(search.source, changes, only, folder / "search", search.fields, executor, report) as evaluator:
-        ends = [{**search.present, each.field: end} for each in search.variables for end in each.ends]
-        first_error(evaluator, [search.present, *ends])
+    evaluator = Evaluator(search.source, changes, only, folder / "search", search.start, executor, report)
+    ends = [{**search.present, each.field: end} for each in search.variables for end in each.ends]
+    first_error(evaluator, [search.present, *ends])
+    check_folder(folder, STORES)
+    with evaluator:
         evaluator.progress.total = search.runs * (2 * search.trials + 1)
         tried = search_fleets(search, sampler, random, evaluator)
         progress, steps = evaluator.progress, evaluator.steps
     finalists = _finalists(search, tried)
     progress.total = progress.before + progress.done + search.final_runs * len(finalists)
     fresh = {**changes, "seed": fresh_seed(seed)}
-    with Evaluator(search.source, fresh, only, folder / "final", search.fields, executor, report) as evaluator:
+    with Evaluator(search.source, fresh, only, folder / "final", search.start, executor, report) as evaluator:
         evaluator.progress = progress
         cells = [evaluator.cells(each.point) for each in finalists]
         rows = [found[0] for found in evaluator.evaluate(cells, search.final_runs)]

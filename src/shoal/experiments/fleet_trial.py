@@ -45,11 +45,6 @@ class FleetSearch:
         return [*(each.variable(self.scenario) for each in self.fleets if not each.fixed), *self.variables]
 
     @property
-    def fields(self) -> list[str]:
-        """Names that points have."""
-        return [*self.present, *(each.field for each in self.variables)]
-
-    @property
     def present(self) -> Point:
         """The fleet that the scenario has."""
         own = {each.name: each.count for each in self.scenario.fleets}

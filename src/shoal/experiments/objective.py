@@ -20,9 +20,9 @@ class Objective:
 
     @property
     def words(self) -> str:
-        """The metric in tables and figures, its unit behind it."""
+        """The metric in tables and figures, its unit behind it if that says anything."""
         metric = METRICS[self.metric]
-        return metric.words if metric.unit == "1" else f"{metric.words} [{metric.unit}]"
+        return metric.words if metric.unit in ("1", "currency") else f"{metric.words} [{metric.unit}]"
 
     @property
     def bounds(self) -> Bounds:

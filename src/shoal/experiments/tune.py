@@ -20,7 +20,7 @@ from shoal.experiments.design import Point
 from shoal.experiments.evaluator import Evaluator, Rows, cells_or_reason, first_error
 from shoal.experiments.executors import Executor
 from shoal.experiments.objective import Objective
-from shoal.experiments.paired import Difference, paired_difference
+from shoal.experiments.paired import SIGNIFICANT, Difference, paired_difference
 from shoal.experiments.rows import Row
 from shoal.experiments.start import value_of
 from shoal.experiments.suite import SuiteCondition
@@ -114,8 +114,8 @@ class TuneResult:
     @property
     def verdict(self) -> str:
         """Better, worse, or no difference shown, of the winner against the start."""
-        interval = self.difference.ci95
-        if self.winner is self.start or interval is None or interval[0] <= 0 <= interval[1]:
+        p = self.difference.p
+        if self.winner is self.start or p is None or p >= SIGNIFICANT:
             return "no difference shown"
         return "better" if self.difference.mean * self.search.objective.direction > 0 else "worse"
 
@@ -132,20 +132,20 @@ def tune(
     MissingExtraError : optuna is not installed
     """
     asker = Asker(search.variables, [search.objective], "tpe", search.scenario.seed)
-    fields = [each.field for each in search.variables]
-    check_fields(search.scenario, fields, search.changes, search.conditions)
+    start = {each.field: value_of(search.scenario, each.field) for each in search.variables}
+    check_fields(search.scenario, list(start), search.changes, search.conditions)
+    evaluator = Evaluator(search.source, search.changes, search.conditions, folder / "search", start, executor, report)
+    ends = [{each.field: end} for each in search.variables for end in each.ends]
+    first_error(evaluator, [{}, *ends])
     check_folder(folder, STORES)
-    shared = (search.source, search.changes, search.conditions)
-    with Evaluator(*shared, folder / "search", fields, executor, report) as evaluator:
-        ends = [{each.field: end} for each in search.variables for end in each.ends]
-        first_error(evaluator, [{}, *ends])
+    with evaluator:
         total = len(search.conditions) * (search.runs * (search.trials + 1) + 2 * search.final_runs)
         evaluator.progress.total = total
-        trials = _trials(search, asker, evaluator)
+        trials = _trials(search, start, asker, evaluator)
         progress, steps = evaluator.progress, evaluator.steps
     winner = best_of(trials, search.objective)
     fresh = {**search.changes, "seed": fresh_seed(search.scenario.seed)}
-    with Evaluator(search.source, fresh, search.conditions, folder / "final", fields, executor, report) as evaluator:
+    with Evaluator(search.source, fresh, search.conditions, folder / "final", start, executor, report) as evaluator:
         evaluator.progress = progress
         rows = evaluator.evaluate([evaluator.cells({}), evaluator.cells(winner.point)], search.final_runs)
         steps += evaluator.steps
@@ -189,13 +189,13 @@ def best_of(trials: Sequence[Trial], objective: Objective) -> Trial:
     return max(known, key=lambda each: each.mean * objective.direction)
 
 
-def _trials(search: Search, asker: Asker, evaluator: Evaluator) -> list[Trial]:
+def _trials(search: Search, start: Point, asker: Asker, evaluator: Evaluator) -> list[Trial]:
     """The start, then what the sampler asks for, some at a time."""
     cells = evaluator.cells({})
     (rows,) = evaluator.evaluate([cells], search.runs)
     found = [_trial({}, rows, search)]
     if np.isfinite(found[0].mean):
-        asker.learn({each.field: value_of(search.scenario, each.field) for each in search.variables}, [found[0].mean])
+        asker.learn(start, [found[0].mean])
     for begun in range(0, search.trials, TOGETHER):
         asked = [asker.ask() for _ in range(min(TOGETHER, search.trials - begun))]
         settled = [(trial, point, *cells_or_reason(evaluator, point)) for trial, point in asked]

@@ -12,13 +12,13 @@ from shoal.core.files import write_atomic
 from shoal.core.text import plain
 from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.experiments.fleet_front import Alternative, FleetFront
-from shoal.study.design_words import names_of, sentences, spread
+from shoal.study.design_words import buying, names_of, searches, spread
 from shoal.study.searching import shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-ROWS = 12  # of the table: the rest is in the folder of the design
+ROWS = 10  # of the table: the rest is in the folder of the design
 CSS = """
 * { box-sizing: border-box; }
 body { margin: 0 auto; padding: 1.6rem 1.2rem; max-width: 50rem; background: #fff; color: #1d2328;
@@ -37,10 +37,11 @@ th:last-child, td:last-child { text-align: left; }
 tr.own td { background: #fdeee2; }
 @media print {
   @page { size: A4; margin: 12mm 14mm; }
-  body { max-width: none; padding: 0; font-size: 9.5pt; line-height: 1.35; }
+  body { max-width: none; padding: 0; font-size: 9.5pt; line-height: 1.3; }
   h1 { font-size: 16pt; } h2 { font-size: 11pt; margin-top: .6rem; }
-  img { width: auto; max-width: 100%; max-height: 95mm; margin: .3rem auto 0; }
-  th, td { padding: .12rem .5rem; }
+  img { width: auto; max-width: 100%; max-height: 82mm; margin: .3rem auto 0; }
+  .soft, table { font-size: 8.5pt; }
+  th, td { padding: .08rem .5rem; }
   tr.own td { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   table, li { break-inside: avoid; }
 }
@@ -61,14 +62,14 @@ def page(scenario: str, result: FleetFront, picture: str) -> str:
     """Return the page as HTML; `picture` is the address of the figure."""
     search = result.search
     title = f"Which fleet to buy: {scenario}"
-    told = "".join(f"<li>{_text(each)}</li>" for each in sentences(result)[1:])
+    told = "".join(f"<li>{_text(each)}</li>" for each in buying(result))
     method = (
         f"{search.trials} fleets were chosen by a sampler and as many at random, {search.runs} runs of "
         f"{search.scenario.steps:,} steps each, all with the same seeds. {len(result.alternatives)} of them were run "
         f"again, {search.final_runs} times each, on seeds that the search had not seen: all numbers here are of "
         "these runs, with 95 % intervals. A fleet is dominated for sure where another costs no more and its interval "
         "lies above. What one agent is worth of another is told by all that was tried, by a smooth curve. "
-        "A simulation is no trial at sea: it knows what the scenario says, and nothing else."
+        f"{searches(result)} A simulation is no trial at sea: it knows what the scenario says, and nothing else."
     )
     facts = (
         f"Shoal {VERSION}, results version {RESULTS_VERSION}, scenario {search.scenario.hash}, seed "

@@ -15,12 +15,16 @@ def sentences(result: FleetFront) -> list[str]:
     """Return what the fleets that were run again, the exchange rates and the searches say."""
     failed = [each.reason for several in result.tried.values() for each in several if each.reason]
     return [
+        *buying(result),
         _dominated(result),
-        _present(result),
-        *exchange(result),
-        _searches(result),
+        searches(result),
         *([f"{len(failed)} trials could not run or failed, the first: {failed[0]}"] if failed else []),
     ]
+
+
+def buying(result: FleetFront) -> list[str]:
+    """Return what matters to whoever buys: the present fleet, what there is for its cost, exchange rates."""
+    return [_present(result), *_instead(result), *exchange(result)]
 
 
 def exchange(result: FleetFront) -> Iterator[str]:
@@ -88,19 +92,33 @@ def _dominated(result: FleetFront) -> str:
 
 def _present(result: FleetFront) -> str:
     present, names = result.present, names_of(result)
-    told = f"The scenario's own fleet, {fleet_text(present.counts, names)}, "
+    told = f"The scenario's own fleet, {_told(present, names)}, "
     if present.on_front:
         return f"{told}is on the front."
     if present.beaten_by is None:
         return f"{told}is behind the front by its mean; no fleet that was run again dominates it for sure."
     better = result.alternatives[present.beaten_by]
-    return (
-        f"{told}is dominated for sure: {fleet_text(better.counts, names)} gives {spread(better.more)} instead of "
-        f"{spread(present.more)}, for {spread(better.less, exact=True)} instead of {spread(present.less, exact=True)}."
-    )
+    return f"{told}is dominated for sure, by {_told(better, names)}."
 
 
-def _searches(result: FleetFront) -> str:
+def _instead(result: FleetFront) -> Iterator[str]:
+    """The best of the front that costs no more than the present fleet, and the cheapest that is worth no less."""
+    present, names = result.present, names_of(result)
+    if present.on_front or not np.isfinite([present.less.mean, present.more.mean]).all():
+        return
+    best = [each for each in result.front if each.less.mean <= present.less.mean][-1]
+    yield f"For no more than that, there is {_told(best, names)}."
+    cheap = next((each for each in result.front if each.more.mean >= present.more.mean), best)
+    if cheap is not best:
+        yield f"For no less than it gives, there is {_told(cheap, names)}."
+
+
+def _told(each: Alternative, names: Sequence[str]) -> str:
+    return f"{fleet_text(each.counts, names)}, which gives {spread(each.more)} for {spread(each.less, exact=True)}"
+
+
+def searches(result: FleetFront) -> str:
+    """Return how the sampler did beside the search at random."""
     sampler, random = (result.hypervolumes[name] for name in ("sampler", "random"))
     if not random > 0:
         return "The search at random found nothing, so that the sampler has no yardstick."

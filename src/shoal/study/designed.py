@@ -113,7 +113,7 @@ class Designed:
             for each in self.alternatives
         ]  # fmt: skip
         tried = [each.means for several in self.result.tried.values() for each in several if each.known]
-        return front_figure(places, tried, search.less.words, search.more.words)
+        return front_figure(places, tried, (search.less.words, search.more.words), " + ".join(names_of(self.result)))
 
     def report(self, file: str | Path) -> None:
         """Write one self-contained HTML page for whoever buys; one of Shoal's of this name is replaced (extra: plots).
