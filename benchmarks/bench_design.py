@@ -22,7 +22,7 @@ from shoal.experiments.design import Design
 from shoal.experiments.executors import in_threads
 from shoal.experiments.front import front, hypervolume
 from shoal.experiments.sweep import sweep
-from shoal.study.designed import design
+from shoal.study.design import design
 
 FAST, SLOW, DEGREES = range(1, 31), range(1, 46), (4, 13, 22, 31, 40)
 PRICES = {"fleets.BoB-1.cost": 3, "fleets.BoB-0.cost": 1}

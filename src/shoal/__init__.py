@@ -50,11 +50,11 @@ if TYPE_CHECKING:
     from shoal.study import plot
     from shoal.study.check import check
     from shoal.study.compared import compare
-    from shoal.study.designed import design
+    from shoal.study.design import design
     from shoal.study.listing import list_metrics, list_presets, list_strategies
     from shoal.study.results import load_results
     from shoal.study.swept import sweep
-    from shoal.study.tuned import tune
+    from shoal.study.tune import tune
 
 _HOMES = {
     "shoal.buoy.buoy": ("Buoy",),
@@ -75,11 +75,11 @@ _HOMES = {
     "shoal.strategies": ("kernel", "strategy"),
     "shoal.study.check": ("check",),
     "shoal.study.compared": ("compare",),
-    "shoal.study.designed": ("design",),
+    "shoal.study.design": ("design",),
     "shoal.study.listing": ("list_metrics", "list_presets", "list_strategies"),
     "shoal.study.results": ("load_results",),
     "shoal.study.swept": ("sweep",),
-    "shoal.study.tuned": ("tune",),
+    "shoal.study.tune": ("tune",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

@@ -8,9 +8,9 @@ from searches import chance, runs_of
 from shoal.core.errors import RecordError, ScenarioError
 from shoal.experiments.fleet_range import FleetRange
 from shoal.experiments.variable import Variable
-from shoal.study.design_page import ROWS, page, shortened
-from shoal.study.design_words import sentences
-from shoal.study.designed import DesignOptions, designed
+from shoal.study.design import DesignOptions, designed
+from shoal.study.design_page import ROWS, page
+from shoal.study.design_words import sentences, shortened
 
 FLEETS = {"BoB-1": (0, 30, 3), "BoB-0": "0:45@1"}
 RANGES = [FleetRange("BoB-1", 0, 30, 3), FleetRange("BoB-0", 0, 45, 1)]
@@ -57,7 +57,7 @@ class TestWords:
 
 class TestPage:
     def test_has_the_front_and_the_own_fleet_but_no_more_rows_than_fit(self, found):
-        kept = shortened(found.result)
+        kept = shortened(found.result, ROWS)
         assert sum(each.present for each in kept) == 1
         assert 5 < len(kept) <= ROWS + 1
         assert found.front[0] in kept

@@ -83,7 +83,7 @@ def design(
     from shoal.experiments.fleet_range import parse_fleet
     from shoal.experiments.on_card import executor_on
     from shoal.experiments.variable import parse_variable
-    from shoal.study.designed import FINAL_RUNS, RUNS, TRIALS, DesignOptions, designed
+    from shoal.study.design import FINAL_RUNS, RUNS, TRIALS, DesignOptions, designed
 
     check_places(out, figure)
     if report:

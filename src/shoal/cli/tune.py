@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from shlex import quote
 from typing import Annotated, Literal
 
 from cyclopts import Parameter
@@ -78,7 +79,7 @@ def tune(
     from shoal.experiments.compiled_first import compiled_first
     from shoal.experiments.on_card import executor_on
     from shoal.experiments.variable import parse_variable
-    from shoal.study.tuned import FINAL_RUNS, RUNS, TRIALS, TuneOptions, tuned
+    from shoal.study.tune import FINAL_RUNS, RUNS, TRIALS, TuneOptions, tuned
 
     check_places(out, figure)
     check_positive(trials=trials, runs=runs, final_runs=final_runs, jobs=jobs)
@@ -100,6 +101,7 @@ def tune(
         note(f"figure: {figure}")
     point = found.result.winner.point
     if point and not json_:
-        note(f"next: shoal run {scenario} {' '.join(f'--set {name}={value}' for name, value in point.items())}")
+        assigned = " ".join(f"--set {quote(f'{name}={value}')}" for name, value in point.items())
+        note(f"next: shoal run {quote(scenario)} {assigned}")
     if out:
         note(f"all runs: {out / 'search'} and {out / 'final'} (shoal results {out / 'final'})")

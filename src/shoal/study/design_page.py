@@ -6,13 +6,11 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from shoal.core.files import write_atomic
 from shoal.core.text import plain
 from shoal.core.version import RESULTS_VERSION, VERSION
-from shoal.experiments.fleet_front import Alternative, FleetFront
-from shoal.study.design_words import buying, names_of, searches, spread
+from shoal.experiments.fleet_front import FleetFront
+from shoal.study.design_words import buying, names_of, searches, shortened, spread
 from shoal.study.searching import shown
 
 if TYPE_CHECKING:
@@ -88,7 +86,7 @@ def page(scenario: str, result: FleetFront, picture: str) -> str:
 
 def _table(result: FleetFront) -> str:
     search = result.search
-    kept = shortened(result)
+    kept = shortened(result, ROWS)
     left = len(result.front) - sum(each.on_front for each in kept)
     titles = [search.less.words, *names_of(result), *(_field(each.field) for each in search.variables)]
     head = "".join(f"<th>{_text(title)}</th>" for title in [*titles, search.more.words, ""])
@@ -111,16 +109,6 @@ def _table(result: FleetFront) -> str:
         f"<h2>The front: no fleet that was found gives more for less</h2>\n<div class=scroll><table><thead><tr>{head}"
         f"</tr></thead><tbody>{rows}</tbody></table></div>{more}"
     )
-
-
-def shortened(result: FleetFront) -> list[Alternative]:
-    """The front, or those of it that lie evenly over what is gained, and the present fleet."""
-    front = result.front
-    if len(front) > ROWS:
-        wanted = np.linspace(front[0].more.mean, front[-1].more.mean, ROWS)
-        places = {int(np.argmin([abs(each.more.mean - value) for each in front])) for value in wanted}
-        front = [front[at] for at in sorted(places)]
-    return [each for each in result.alternatives if each.present or any(each is one for one in front)]
 
 
 def _described(result: FleetFront) -> str:

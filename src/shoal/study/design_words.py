@@ -60,6 +60,16 @@ def fleet_text(counts: Sequence[int], names: Sequence[str] = ()) -> str:
     return " + ".join(f"{count} {name}" for count, name in zip(counts, names, strict=True) if count) or "nothing"
 
 
+def shortened(result: FleetFront, rows: int) -> list[Alternative]:
+    """Return the front, or so many of it that lie evenly over what is gained, and the present fleet."""
+    front = result.front
+    if len(front) > rows:
+        wanted = np.linspace(front[0].more.mean, front[-1].more.mean, rows)
+        places = {int(np.argmin([abs(each.more.mean - value) for each in front])) for value in wanted}
+        front = [front[at] for at in sorted(places)]
+    return [each for each in result.alternatives if each.present or any(each is one for one in front)]
+
+
 def standing(each: Alternative) -> Literal["front", "behind", "beaten"]:
     """Where a fleet stands."""
     return "front" if each.on_front else "behind" if each.beaten_by is None else "beaten"
