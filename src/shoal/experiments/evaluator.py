@@ -4,6 +4,7 @@ A store per condition, each a sweep like any other. A search keeps nothing else:
 for the same points, finds their rows, and so goes on where it was, whatever had ended it.
 """
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
@@ -155,6 +156,14 @@ def first_error(evaluator: Evaluator, points: Sequence[Point]) -> None:
     """
     for point in points:
         evaluator.cells(point)
+
+
+def why_nothing(rows: Sequence[Row], values: Sequence[float], metric: str) -> str:
+    """Why a trial has no value: the first error of its runs, or that the metric has none in one; else nothing."""
+    failed = next((row["error"] for row in rows if row["status"] == "failed"), None)
+    if failed is not None:
+        return str(failed).splitlines()[0] if failed else "a run failed"
+    return "" if all(map(math.isfinite, values)) else f"{metric} has no value in a run"
 
 
 def cells_or_reason(evaluator: Evaluator, point: Point) -> tuple[list[Cell], str]:

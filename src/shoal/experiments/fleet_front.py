@@ -148,8 +148,7 @@ def _finalists(search: FleetSearch, tried: Tried) -> list[FleetTrial]:
         found += [group[at] for at in front(*zip(*(each.means for each in group), strict=True))]
     found += expected_front(search, everything)
     if not any(each.known for each in everything):
-        reason = next((each.reason for each in everything if each.reason), "no run has one")
-        raise ScenarioError(search.more.metric, f"no fleet has a value: {reason}", "correct the scenario or the metric")
+        raise _nothing(search, next((each.reason for each in everything if each.reason), "no run has one"))
     return list({each.key: each for each in reversed(found)}.values())[::-1]
 
 
@@ -160,6 +159,8 @@ def _measured(
     costs, values = [each.mean for each in less], [each.mean for each in more]
     order = sorted(range(len(finalists)), key=lambda at: (costs[at], -values[at]))
     best, beaten = set(front(costs, values)), dominated_for_sure(less, more)
+    if not best:
+        raise _nothing(search, "on fresh seeds")
     places: dict[int | None, int] = {at: place for place, at in enumerate(order)}
     alternatives = tuple(
         Alternative(
@@ -182,6 +183,10 @@ def _measured(
         areas[name] = hypervolume([costs[at] for at in chosen], [values[at] for at in chosen], reference)
     base, rates = _rates(search, tried)
     return FleetFront(search, alternatives, tried, areas, reference, base, tuple(rates), steps)
+
+
+def _nothing(search: FleetSearch, reason: str) -> ScenarioError:
+    return ScenarioError(search.more.metric, f"no fleet has a value: {reason}", "correct the scenario or the metric")
 
 
 def _spread(rows: Sequence[Row], goal: Objective) -> Spread:

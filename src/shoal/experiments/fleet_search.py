@@ -9,7 +9,7 @@ from typing import Any
 
 from shoal.experiments.asker import STARTING, Asker
 from shoal.experiments.design import Point
-from shoal.experiments.evaluator import Evaluator, cells_or_reason
+from shoal.experiments.evaluator import Evaluator, cells_or_reason, why_nothing
 from shoal.experiments.fleet_trial import FleetSearch, FleetTrial, Tried
 from shoal.experiments.promising import promising
 from shoal.experiments.rows import Row
@@ -60,12 +60,13 @@ def _try(search: FleetSearch, points: Sequence[Point], evaluator: Evaluator) -> 
 
 def _trial(search: FleetSearch, point: Point, scenario: Scenario, rows: Sequence[Row]) -> FleetTrial:
     own = {each.name: each.count for each in scenario.fleets}
+    less, more = (values_of(rows, goal.metric) for goal in (search.less, search.more))
     return FleetTrial(
         point=point,
         counts=tuple(own.get(each.name, 0) for each in search.scenario.fleets),
-        less=values_of(rows, search.less.metric),
-        more=values_of(rows, search.more.metric),
-        reason=next((row["error"].splitlines()[0] for row in rows if row["status"] == "failed"), ""),
+        less=less,
+        more=more,
+        reason=why_nothing(rows, more, search.more.metric) or why_nothing(rows, less, search.less.metric),
     )
 
 

@@ -17,7 +17,7 @@ from shoal.core.errors import ScenarioError
 from shoal.core.files import check_folder
 from shoal.experiments.asker import Asker
 from shoal.experiments.design import Point
-from shoal.experiments.evaluator import Evaluator, Rows, cells_or_reason, first_error
+from shoal.experiments.evaluator import Evaluator, Rows, cells_or_reason, first_error, why_nothing
 from shoal.experiments.executors import Executor
 from shoal.experiments.objective import Objective
 from shoal.experiments.paired import SIGNIFICANT, Difference, paired_difference
@@ -209,8 +209,8 @@ def _trials(search: Search, start: Point, asker: Asker, evaluator: Evaluator) ->
 
 def _trial(point: Point, rows: Rows, search: Search) -> Trial:
     values = scores(rows, search.conditions)
-    failed = next((row["error"] for found in rows for row in found if row["status"] == "failed"), "")
-    return Trial(point, tuple(map(float, values)), failed.splitlines()[0] if failed else "")
+    reason = why_nothing([row for found in rows for row in found], values.tolist(), search.objective.metric)
+    return Trial(point, tuple(map(float, values)), reason)
 
 
 def check_fields(
