@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from searches import chance
 from shoal.experiments.fleet_range import FleetRange
 from shoal.experiments.fleet_trial import FleetSearch, FleetTrial
 from shoal.experiments.front import front
@@ -34,7 +35,7 @@ POINTS = [
     {PATHS[0]: int(30 * fast), PATHS[1]: 2 + int(43 * slow), "neighbors": 4 + int(36 * k)}
     for fast, slow, k in halton(40, 0, 3)
 ]
-TRIED = [trial(each) for each in POINTS]
+TRIED = [trial(each, luck=0.1 * chance(number)) for number, each in enumerate(POINTS)]
 
 
 def test_points_are_new_and_have_two_agents_or_more():
@@ -55,9 +56,12 @@ def test_of_too_few_nothing_is_expected():
     assert expected_front(SEARCH, TRIED[:4]) == []
 
 
-def test_a_lucky_run_does_not_make_a_front():
-    poor = {PATHS[0]: 12, PATHS[1]: 5, "neighbors": 38}
-    lucky = trial(poor, luck=0.9)
-    everybody = [*TRIED, lucky]
-    assert len(TRIED) in front([each.means[0] for each in everybody], [each.means[1] for each in everybody])
+def test_a_lucky_one_among_poor_neighbors_is_not_expected_on_the_front():
+    near = [
+        {PATHS[0]: fast, PATHS[1]: slow, "neighbors": k} for fast in (13, 14) for slow in (2, 3) for k in (19, 20, 21)
+    ]
+    lucky = trial(near[0], luck=1.2)
+    everybody = [*TRIED, *map(trial, near[1:]), lucky]
+    seen = front([each.means[0] for each in everybody], [each.means[1] for each in everybody])
+    assert lucky in [everybody[at] for at in seen]
     assert lucky not in expected_front(SEARCH, everybody)
