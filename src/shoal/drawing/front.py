@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 _WIDTH, _HEIGHT = 6.6, 4.2  # [in]
 _FRONT = FLEET_COLORS[0]
+_THOUSANDS = 5000.0  # costs from which their labels are whole, with commas
 _LABELED = 7  # points of the front that are named
 _LEFT = 0.1  # of the width: where there is room for a name left of its point
 _APART = 0.055  # of the height: names are not closer
@@ -49,6 +50,8 @@ def front_figure(
     fleets : what the names of places are made of, such as "fast + slow"
     """
     with style():
+        from matplotlib.ticker import FuncFormatter
+
         figure = new_figure(_WIDTH, _HEIGHT)
         axes = figure.add_axes((0.09, 0.16, 0.88, 0.73))
         axes.plot(*np.array(tried, float).reshape(-1, 2).T, ".", color="#c4c4c4", markersize=4, markeredgewidth=0,
@@ -64,6 +67,8 @@ def front_figure(
         axes.set_xlabel(labels[0])
         axes.set_title(labels[1], pad=22)
         axes.set_xlim(left=0.0)
+        if axes.get_xlim()[1] >= _THOUSANDS:
+            axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
         axes.grid(visible=True)
         _name(axes, best)
         axes.legend(loc="lower left", bbox_to_anchor=(-0.01, 0.995), ncols=5, borderaxespad=0.1)

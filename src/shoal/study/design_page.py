@@ -37,7 +37,7 @@ tr.own td { background: #fdeee2; }
   @page { size: A4; margin: 12mm 14mm; }
   body { max-width: none; padding: 0; font-size: 9.5pt; line-height: 1.3; }
   h1 { font-size: 16pt; } h2 { font-size: 11pt; margin-top: .6rem; }
-  img { width: auto; max-width: 100%; max-height: 82mm; margin: .3rem auto 0; }
+  img { width: auto; max-width: 100%; max-height: 97mm; margin: .3rem auto 0; }
   .soft, table { font-size: 8.5pt; }
   th, td { padding: .08rem .5rem; }
   tr.own td { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
