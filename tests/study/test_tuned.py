@@ -63,6 +63,11 @@ def test_what_is_no_search_is_refused(vary, told):
         shoal.tune("oceans2020", vary, maximize="time_on_target", **SHORT)
 
 
+def test_a_metric_that_the_scenario_does_not_count_is_refused():
+    with pytest.raises(ScenarioError, match="leaves out power, which is looked for"):
+        shoal.tune("oceans2020", {"neighbors": (5, 40)}, minimize="power", metrics=["xi"], **SHORT)
+
+
 def test_a_misspelt_word_is_answered_with_the_one_meant():
     with pytest.raises(ScenarioError, match="did you mean 'trials'"):
         shoal.tune("oceans2020", {"neighbors": (5, 40)}, maximize="time_on_target", trails=5)

@@ -19,7 +19,7 @@ from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source
 from shoal.study.designed import Designed
 from shoal.study.folder import positive, progress_of, store_folder
-from shoal.study.searching import base_scenario, called, variables_of
+from shoal.study.searching import base_scenario, called, check_counted, variables_of
 from shoal.study.varied import written
 
 TRIALS, RUNS, FINAL_RUNS = 100, 3, 10
@@ -102,6 +102,7 @@ def designed(
     positive(trials=options.trials, runs=options.runs, final_runs=options.final_runs, jobs=options.jobs)
     less, more = objective(options.minimize, -1), objective(options.maximize, 1)
     base = base_scenario(scenario, changes)
+    check_counted(base, [less.metric, more.metric])
     fleets, variables = searched
     check_fleets(fleets, base, costs=less.metric == "cost")
     search = FleetSearch(

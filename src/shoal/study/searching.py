@@ -12,6 +12,8 @@ from shoal.scenario.load import Source, load, name_of_source, scenario_from, tab
 from shoal.scenario.schema import Scenario
 from shoal.study.varied import written
 
+_ALWAYS = ("time_on_target", "cost")  # known whatever a scenario counts
+
 
 def variables_of(vary: Mapping[str, Any]) -> list[Variable]:
     """Return what varies: a range as text ("0.002:0.05") or as a tuple of two ends, or values one by one.
@@ -38,6 +40,19 @@ def base_scenario(scenario: Source, changes: Mapping[str, Any]) -> Scenario:
     """
     require_optuna()
     return scenario_from(change(table_of(scenario), changes), where=name_of_source(scenario))
+
+
+def check_counted(scenario: Scenario, metrics: Iterable[str]) -> None:
+    """Refuse to look for a metric that a scenario does not count, as it has chosen others.
+
+    Raises
+    ------
+    ScenarioError : it names the metric
+    """
+    for name in metrics:
+        if scenario.metrics and name not in (*scenario.metrics, *_ALWAYS):
+            fix = f"add it: metrics={','.join([*scenario.metrics, name])}, or leave out metrics"
+            raise ScenarioError("metrics", f"leaves out {name}, which is looked for", fix)
 
 
 def called(scenario: Source) -> str:

@@ -17,7 +17,7 @@ from shoal.experiments.variable import Variable, check_variables
 from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source
 from shoal.study.folder import positive, progress_of, store_folder
-from shoal.study.searching import base_scenario, called, variables_of
+from shoal.study.searching import base_scenario, called, check_counted, variables_of
 from shoal.study.tuned import Tuned
 from shoal.study.varied import written
 
@@ -101,13 +101,15 @@ def tuned(
     goal = one_objective(options.maximize, options.minimize)
     check_variables(variables)
     base = base_scenario(scenario, changes)
+    conditions = conditions_of(options.conditions, goal.metric, base)
+    check_counted(base, [each.metric for each in conditions])
     search = Search(
         source=scenario,
         changes=dict(changes),
         scenario=base,
         variables=variables,
         objective=goal,
-        conditions=conditions_of(options.conditions, goal.metric, base),
+        conditions=conditions,
         trials=options.trials,
         runs=options.runs,
         final_runs=options.final_runs,
