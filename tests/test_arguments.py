@@ -58,7 +58,7 @@ class TestKeywordsDeclaredOnce:
         assert {"memory", "tells", "sums", "influence"} < set(known)
         assert all(each.kind is not inspect.Parameter.VAR_KEYWORD for each in known.values())
 
-    @pytest.mark.parametrize("function", [shoal.compare, shoal.sweep, shoal.strategy])
+    @pytest.mark.parametrize("function", [shoal.compare, shoal.sweep, shoal.tune, shoal.design, shoal.strategy])
     def test_each_is_explained_in_the_docstring(self, function):
         for name in inspect.signature(function).parameters:
             assert name in function.__doc__

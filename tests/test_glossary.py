@@ -30,7 +30,7 @@ side signal simulate simulation size stamp startup statement statistic stop stop
 swept table text thought tide top tree turn uniform unknown varied vehicle version view virtual wanted watch watched
 waiting weight word writer xml datagram port serial stream unready aboard attend killing late letter note obedient paced
 borrowed deferral process quickest sail serve storm term tied zenoh relayed listed many template vector
-form gpu hear known nearest packed place
+form gpu hear known nearest packed place measured promising searching spread start
 """  # words that mean what any dictionary says, and file formats
 PLAIN = frozenset(DICTIONARY.split())
 KINDS = [*TARGETS, *DISTURBANCES]

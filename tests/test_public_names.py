@@ -110,6 +110,8 @@ def test_a_users_script_passes_a_strict_type_checker(tmp_path):
         "x: float = float(record.trajectories[0].x[0, 0]) + low + high\n"
         "best: str = shoal.compare(['encircle'], scenario, runs=2).baseline\n"
         "fields: list[str] = shoal.sweep(scenario, {'neighbors': range(10, 30, 10)}).fields\n"
+        "k: object = shoal.tune(scenario, {'neighbors': (5, 40)}, maximize='time_on_target').best['neighbors']\n"
+        "worth: float = shoal.design(scenario, {'BoB-1': (0, 30, 3)}).front[0].more.mean\n"
         "unit: str = shoal.list_metrics()['xi'].unit\n"
         "notes: list[str] = shoal.check(scenario)\n"
         "shoal.plot.save(shoal.plot.summary(record), 'figure.png')\n"

@@ -7,6 +7,7 @@
 >>> shoal.sweep("oceans2020", {"neighbors": range(10, 50, 10)}, steps=5000).plot()
 
 simulate, compare, sweep, reproduce, check     run a scenario, or many of them
+tune, design                                   look for the best values, for the fleets that are worth their cost
 load, presets, to_toml, Scenario               what to run; `scenario.with_(neighbors=10)` is another
 Simulation                                     one run, step by step
 Record, open_record, save_record, load_results what runs leave behind
@@ -49,9 +50,11 @@ if TYPE_CHECKING:
     from shoal.study import plot
     from shoal.study.check import check
     from shoal.study.compared import compare
+    from shoal.study.design import design
     from shoal.study.listing import list_metrics, list_presets, list_strategies
     from shoal.study.results import load_results
     from shoal.study.swept import sweep
+    from shoal.study.tune import tune
 
 _HOMES = {
     "shoal.buoy.buoy": ("Buoy",),
@@ -72,9 +75,11 @@ _HOMES = {
     "shoal.strategies": ("kernel", "strategy"),
     "shoal.study.check": ("check",),
     "shoal.study.compared": ("compare",),
+    "shoal.study.design": ("design",),
     "shoal.study.listing": ("list_metrics", "list_presets", "list_strategies"),
     "shoal.study.results": ("load_results",),
     "shoal.study.swept": ("sweep",),
+    "shoal.study.tune": ("tune",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -100,6 +105,7 @@ __all__ = [
     "briefing",
     "check",
     "compare",
+    "design",
     "export",
     "kernel",
     "list_metrics",
@@ -117,6 +123,7 @@ __all__ = [
     "strategy",
     "sweep",
     "to_toml",
+    "tune",
     "uniform",
 ]
 

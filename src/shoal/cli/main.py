@@ -31,6 +31,8 @@ app.command("shoal.cli.replay:replay", name="replay", help="Write a page that pl
 app.command("shoal.cli.export:export", name="export", help="Write the tracks of a record for maps and plotters.")
 app.command("shoal.cli.chart:chart", name="chart", help="Show a run on chart plotters as it goes, by AIS.")
 app.command("shoal.cli.sweep:sweep", name="sweep", help="Run every combination of varied fields, several times each.")
+app.command("shoal.cli.tune:tune", name="tune", help="Look for the best values of some fields of a scenario.")
+app.command("shoal.cli.design:design", name="design", help="Look for the fleets that are worth their cost.")
 app.command("shoal.cli.compare.command:compare", name="compare", help="Compare strategies, with the same seeds.")
 app.command("shoal.cli.reproduce:reproduce", name="reproduce", help="Reproduce a paper: its figures, its claims.")
 app.command("shoal.cli.results:results", name="results", help="Print means and 95 % intervals of a sweep.")

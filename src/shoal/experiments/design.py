@@ -101,6 +101,9 @@ def parse_values(text: str, where: str) -> list[Any]:
     parts = text.split(":")
     if 2 <= len(parts) <= 3 and all(type(parse_value(part)) in (int, float) for part in parts):
         start, stop, step = (*map(parse_value, parts), 1)[:3]
+        if len(parts) == 2 and float in (type(start), type(stop)):
+            fix = f"add a step, such as {text.strip()}:0.01, or let `shoal tune` search all values between the two"
+            raise ScenarioError(where, f"the range {cut(text)} has decimal ends and no step", fix)
         if not all(-_FARTHEST <= number <= _FARTHEST for number in (start, stop, step)):
             raise ScenarioError(where, f"the range {cut(text)} has no end", "write numbers, such as 10:49:3")
         if step <= 0 or stop < start:

@@ -97,7 +97,7 @@ def sweep(
             tasks = _pending(cells, counts, store, retry_failed)
             wanted = sum(counts.values())
             progress = Progress(total=wanted, before=wanted - len(tasks))
-            _store_all(execute(tasks), store, progress, report)
+            store_all(execute(tasks), store, progress, report)
             retry_failed = False
             if until is None or not _add_replicates(cells, counts, store, until):
                 return store.rows()
@@ -121,7 +121,7 @@ def _pending(cells: Iterable[Cell], counts: dict[int, int], store: Store, retry_
     return [(cell, run) for cell in cells for run in range(counts[id(cell)]) if cell.run_id(run) not in have]
 
 
-def _store_all(
+def store_all(
     finished: Iterator[Done], store: Store, progress: Progress, report: Callable[[Progress], None] | None
 ) -> None:
     """Write rows as they come, several in one transaction; whatever ends this, finished rows are written."""

@@ -210,7 +210,7 @@ def _set_agents(table: Table, value: Any) -> None:
     for fleet, count in zip(fleets, counts, strict=True):
         fleet["count"] = count
     table["fleets"] = [fleet for fleet in fleets if fleet["count"] > 0]
-    _lower_degrees(table, value)
+    lower_degrees(table, value)
 
 
 def _is_density_kept(changes: Mapping[str, Any]) -> bool:
@@ -237,7 +237,7 @@ def _set_agents_and_sides(table: Table, value: Any) -> None:
             area[side] = float(Unit("m").parse(area.get(side))) * math.sqrt(value / before)
 
 
-def _lower_degrees(table: Table, agents: int) -> None:
+def lower_degrees(table: Table, agents: int) -> None:
     """Lower every k of a table to the number of others: a scenario for 50 agents then runs with 5, too."""
     joins = table.get("joins")
     later = [each.get("count") for each in (joins if isinstance(joins, list) else ()) if isinstance(each, dict)]
