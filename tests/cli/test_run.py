@@ -177,6 +177,7 @@ class TestListings:
         assert "knn-pso" in shoal(capsys, "strategies")[1]
         listed = json.loads(shoal(capsys, "strategies", "--json")[1])
         assert next(each for each in listed if each["name"] == "knn-pso")["parameters"]["delta"]["unit"] == "m"
+        assert [each["name"] for each in listed if each["recommended"]] == ["cordon"]
         Path("mine.toml").write_text(shoal(capsys, "scenario", "oceans2020")[1])
         assert "fine" in shoal(capsys, "check", "mine.toml")[1]
         assert "fleets" in json.loads(shoal(capsys, "schema")[1])["properties"]

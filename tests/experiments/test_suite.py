@@ -40,7 +40,7 @@ def board(suite, shares):
 
 class TestArena:
     def test_it_is_the_suite_there_is(self, arena):
-        assert suites() == ["arena"]
+        assert suites() == ["arena", "arena-wide"]
         assert arena.seed == 4242
         with pytest.raises(ScenarioError, match="did you mean 'arena'"):
             read_suite("areno")
@@ -81,6 +81,43 @@ class TestArena:
         (losses,) = (each.changes["losses"] for each in short.conditions if each.name == "half lost")
         assert losses == [{"step": 150, "count": 25}]
         assert (short.runs, short.steps, short.seed) == (2, 300, 4242)
+
+
+class TestWideArena:
+    """The arena's seven conditions, and more."""
+
+    def test_begins_with_the_very_runs_of_the_arena(self, arena):
+        named = contenders(["knn-pso"])
+        runs, wide = ([cell.run_id(3) for cell in each.cells(named)] for each in (arena, read_suite("arena-wide")))
+        assert wide[: len(runs)] == runs
+        assert len(set(wide)) == len(wide) == 2 * len(read_suite("arena-wide").conditions)
+
+    def test_conditions_are_what_they_are_called(self):
+        wide = read_suite("arena-wide")
+        cells = wide.cells(contenders(["knn-pso"]))
+        scenarios = {each.name: cells[2 * number].scenario for number, each in enumerate(wide.conditions)}
+        kinds = {name: scenarios[name].targets[0].kind for name in ("walk", "Levy", "line", "drift")}
+        assert kinds == {"walk": "walk", "Levy": "levy", "line": "line", "drift": "drift"}
+        assert {scenarios[name].targets[0].margin for name in ("walk", "Levy", "line")} == {0.0}
+        numbers = {name: scenarios[name].agents for name in ("sparse", "25 agents", "dense 100", "dense 200")}
+        assert list(numbers.values()) == [50, 25, 100, 200]
+        assert scenarios["sparse"].area.width == 2 * scenarios["dense 200"].area.width == 40.0
+        assert [scenarios[name].targets[0].radius for name in ("radius 0.6", "radius 2")] == [0.6, 2.0]
+        assert {fleet.false_alarm_probability for fleet in scenarios["false alarms"].fleets} == {0.002}
+        assert {fleet.detection_probability for fleet in scenarios["detection 0.5"].fleets} == {0.5}
+        assert {fleet.max_acceleration for fleet in scenarios["sluggish"].fleets} == {1.0}
+        assert scenarios["delay"].network.delay == 5
+        assert scenarios["range 2 m"].network.range == 2.0
+
+    def test_the_bay_is_a_scenario_of_its_own_and_as_long_as_it_is(self):
+        wide = read_suite("arena-wide")
+        bay, short = wide.cells(contenders(["knn-pso"]))[-1], resized(wide, steps=2000)
+        assert (bay.scenario.name, bay.scenario.steps, bay.scenario.seed) == ("bay", 7200, wide.seed)
+        assert short.cells(contenders(["knn-pso"]))[-1].scenario.steps == 720
+
+    def test_folders_of_conditions_differ(self):
+        folders = [each.folder for each in read_suite("arena-wide").conditions]
+        assert len(set(folders)) == len(folders)
 
 
 class TestLeaderboard:

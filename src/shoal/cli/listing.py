@@ -28,7 +28,7 @@ def strategies(*, json_: Annotated[bool, Parameter(name="--json", negative=())] 
         Print a JSON list with every parameter, its default and its unit.
     """
     from shoal.scenario.strategy_choice import params_model
-    from shoal.strategies import CATALOGUE
+    from shoal.strategies import CATALOGUE, RECOMMENDED
     from shoal.strategies.installed import load_all_installed
 
     for error in load_all_installed():
@@ -42,6 +42,7 @@ def strategies(*, json_: Annotated[bool, Parameter(name="--json", negative=())] 
                 "reference": each.reference,
                 "builtin": each.builtin,
                 "informed": each.informed,
+                "recommended": each.builtin and each.name == RECOMMENDED,
                 "hears_all": each.hears_all,
                 "tells": each.told,
                 "memory": each.memory,

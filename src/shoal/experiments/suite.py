@@ -13,7 +13,7 @@ from shoal.core.files import check_folder
 from shoal.experiments.cells import Cell, make_cells
 from shoal.experiments.comparison import Values
 from shoal.experiments.contenders import Contender
-from shoal.experiments.design import Point
+from shoal.experiments.design import Design, Point
 from shoal.experiments.executors import Executor
 from shoal.experiments.rows import Row
 from shoal.experiments.run_comparison import comparison_design, run_comparison, values_of
@@ -24,13 +24,18 @@ Found = dict[str, dict[str, list[Row | None]]]  # by condition and strategy, the
 
 @dataclass(frozen=True)
 class SuiteCondition:
-    """One condition: changes to the suite's scenario, and the metric / out_of, a share of 0 to 1, that counts there."""
+    """One condition: changes to the suite's scenario, and the metric / out_of, a share of 0 to 1, that counts there.
+
+    scenario, steps : of its own, where they are not the suite's
+    """
 
     name: str
     says: str
     metric: str
     out_of: float = 1.0
     changes: Point = field(default_factory=dict)
+    scenario: str | None = None
+    steps: int | None = None
 
     @property
     def folder(self) -> str:
@@ -51,12 +56,17 @@ class Suite:
 
     def changes(self, condition: SuiteCondition) -> Point:
         """All changes that make a condition."""
-        return {**condition.changes, "steps": self.steps, "seed": self.seed}
+        return {**condition.changes, "steps": condition.steps or self.steps, "seed": self.seed}
+
+    def design(self, condition: SuiteCondition, contenders: Sequence[Contender]) -> Design:
+        """Every contender in the scenario of a condition."""
+        return comparison_design(condition.scenario or self.scenario, contenders, self.runs)
 
     def cells(self, contenders: Sequence[Contender]) -> list[Cell]:
         """Every scenario that the suite runs."""
-        design = comparison_design(self.scenario, contenders, self.runs)
-        return [cell for each in self.conditions for cell in make_cells(design, self.changes(each))]
+        return [
+            cell for each in self.conditions for cell in make_cells(self.design(each, contenders), self.changes(each))
+        ]
 
 
 def suites() -> list[str]:
@@ -88,7 +98,12 @@ def resized(suite: Suite, *, runs: int | None = None, steps: int | None = None, 
         seed=suite.seed if seed is None else seed,
         steps=length,
         conditions=tuple(
-            replace(each, changes=_moved(each.changes, length / suite.steps)) for each in suite.conditions
+            replace(
+                each,
+                changes=_moved(each.changes, length / suite.steps),
+                steps=each.steps and max(1, round(each.steps * length / suite.steps)),
+            )
+            for each in suite.conditions
         ),
     )
 
@@ -112,11 +127,11 @@ def run_suite(
     """
     check_folder(out, [each.folder for each in suite.conditions])
     overall = Progress(total=len(suite.cells(contenders)) * suite.runs, before=0)  # refuses what cannot run
-    design = comparison_design(suite.scenario, contenders, suite.runs)
     found = {}
     for condition in suite.conditions:
         if begin:
             begin(condition.name)
+        design = suite.design(condition, contenders)
         store, changes = out / condition.folder, suite.changes(condition)
         tell = _added_to(overall, report)
         ((_, strategies),) = run_comparison(design, contenders, store, changes=changes, executor=executor, report=tell)

@@ -7,3 +7,7 @@ from shoal.strategies.contract import Strategy as Strategy
 from shoal.strategies.contract import strategy as strategy
 
 import_marked("shoal.strategies", "strategy")
+
+RECOMMENDED = (
+    "cordon"  # best or tied for best of all that no truth is told, under every condition of the suite arena-wide
+)

@@ -19,9 +19,9 @@ How each part pays, and when it fails: docs/explanation/beyond-the-paper.md.
 import math
 from typing import Annotated, NamedTuple
 
-from shoal.compiler.kernel import kernel
 from shoal.core.units import Doc, Follows, Meters, Range, Seconds
 from shoal.strategies.contract import strategy
+from shoal.strategies.estimate import distance_to, hear, move_on, so_near
 from shoal.strategies.parts import own_station, toward
 
 
@@ -71,14 +71,17 @@ def influence(me, other, params):
 
 def decide(me, heard, memory, params, draw):
     """Stations, an estimate of the target and a ring around it (ours; the paper's information)."""
-    _estimate(me, heard, memory, params)
+    known = me.time - memory.contact <= params.patience
+    if known:
+        move_on(me, memory, 0.0)
+    hear(me, heard, memory, known, params.learn)
     away_x = memory.station_x - memory.x
     away_y = memory.station_y - memory.y
-    away = math.sqrt(away_x * away_x + away_y * away_y) + _near(me)
+    away = math.sqrt(away_x * away_x + away_y * away_y) + so_near(me)
     fresh = me.time - memory.contact < params.patience
     if not fresh or away >= params.chase * me.max_speed / memory.speed:
         return toward(me, memory.station_x, memory.station_y)
-    ahead = params.lead * _distance(memory, me.x, me.y) / me.max_speed
+    ahead = params.lead * distance_to(memory, me.x, me.y) / me.max_speed
     out = min(away, params.ring) / away
     return toward(
         me,
@@ -87,91 +90,9 @@ def decide(me, heard, memory, params, draw):
     )
 
 
-@kernel
-def _estimate(me, heard, memory, params):
-    """Move the estimate on, then correct it by what the leader and the agent itself sense."""
-    reach = me.briefing.reach
-    known = me.time - memory.contact <= params.patience
-    if known:
-        _move_on(me, memory)
-    if me.on_target:
-        if not known:
-            _start(memory, me.x, me.y)
-        distance = _distance(memory, me.x, me.y)
-        _correct(me, memory, me.x, me.y, reach if memory.was_on == 0.0 else min(distance, reach), params)
-        memory.contact = me.time
-    elif known or heard.found:
-        if heard.found:
-            if not known:
-                _start(memory, heard.x, heard.y)
-            within = min(_distance(memory, heard.x, heard.y), reach)
-            _correct(me, memory, heard.x, heard.y, within, params)
-            memory.contact = me.time
-        _correct(me, memory, me.x, me.y, max(_distance(memory, me.x, me.y), reach), params)
-    memory.was_on = 1.0 if me.on_target else 0.0
-
-
-@kernel
-def _move_on(me, memory):
-    """Move the estimate by a step; at the edge of the area it stays."""
-    memory.x += memory.vx * me.time_step
-    memory.y += memory.vy * me.time_step
-    if abs(memory.x) > me.briefing.half_x:
-        memory.x = math.copysign(me.briefing.half_x, memory.x)
-        memory.vx = 0.0
-    if abs(memory.y) > me.briefing.half_y:
-        memory.y = math.copysign(me.briefing.half_y, memory.y)
-        memory.vy = 0.0
-
-
-@kernel
-def _start(memory, x, y):
-    """Begin an estimate at a place, with no heading."""
-    memory.x = x
-    memory.y = y
-    memory.vx = 0.0
-    memory.vy = 0.0
-
-
-@kernel
-def _distance(memory, x, y):
-    """From the estimate to a place [m]."""
-    dx = memory.x - x
-    dy = memory.y - y
-    return math.sqrt(dx * dx + dy * dy)
-
-
-@kernel
-def _near(me):
-    """So near that there is no direction [m], above zero where nothing is reached, too."""
-    return 1e-9 * me.briefing.reach + 1e-30
-
-
-@kernel
-def _correct(me, memory, x, y, wanted, params):
-    """Move the estimate along the line from (x, y) until it is `wanted` away; turn its velocity, learn its speed."""
-    distance = _distance(memory, x, y)
-    if distance < _near(me) or wanted == distance:
-        return
-    change_x = (memory.x - x) * (wanted / distance - 1.0)
-    change_y = (memory.y - y) * (wanted / distance - 1.0)
-    speed = math.sqrt(memory.vx * memory.vx + memory.vy * memory.vy)
-    along = (change_x * memory.vx + change_y * memory.vy) / max(speed, 1e-9)
-    memory.speed = max(memory.speed + params.learn * along / me.time_step, _SLOWEST)
-    memory.x += change_x
-    memory.y += change_y
-    memory.vx += change_x / me.time_step
-    memory.vy += change_y / me.time_step
-    speed = math.sqrt(memory.vx * memory.vx + memory.vy * memory.vy)
-    if speed > 1e-9:
-        memory.vx *= memory.speed / speed
-        memory.vy *= memory.speed / speed
-
-
 _NEVER = -1e9  # [s]
 _SOFTENING = 2.5e-7  # of spacing^2
 _NOTHING = 1e-60  # [m^2]: where the spacing is zero
-_SLOWEST = 0.01  # [m/s]
 
 strategy(
     "encircle",

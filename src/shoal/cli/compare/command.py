@@ -41,7 +41,7 @@ def compare(
         A preset's name or a TOML file; default oceans2020. Every strategy has its own defaults there; the scenario's
         own strategy keeps the parameters that the scenario gives it.
     suite
-        Run a fixed suite of conditions instead, and print a leaderboard: arena.
+        Run a fixed suite of conditions instead, and print a leaderboard: arena or arena-wide.
     runs
         Runs of each strategy under each condition; default 20, or the suite's.
     steps
