@@ -15,8 +15,8 @@ HEARD = {"company": 0.5}  # one neighbor is company enough
 DEFAULTS = CATALOGUE["cordon"].params._field_defaults
 SLUGGISH = {
     "targets": [{"kind": "still", "x": 1e6, "y": 0.0, "radius": 1.0}],
-    "fleets.BoB-1.max_acceleration": 1.0,
-    "fleets.BoB-0.max_acceleration": 1.0,
+    "fleets.0.max_acceleration": 1.0,
+    "fleets.1.max_acceleration": 1.0,
     "strategy": {"name": "cordon", "spread": 0.0},
     "steps": 400,
 }
@@ -76,9 +76,9 @@ class TestRoaming:
         assert remembered(simulation, "roam") == pytest.approx(DT if roams else 0.0)
 
     def test_who_knows_that_the_target_roams_waits_farther_out(self):
-        shape = {"inset": 5.0, "inset_far": 1.0, "roaming": 0.1, "home": 1e3, "home_far": 1e3, "spread_far": 0.0}
+        shape = {"inset": 5.0, "inset_far": 1.0, "roaming": 0.1, "home": 0.1, "home_far": 0.1, "spread_far": 0.0}
         near, far = (
-            DT * wanted(cordon([(0.0, 0.0), FAR], top=1e9, spread=0.0, memory={"roam": roam}, **shape))[0]
+            DT * wanted(cordon([(0.0, 0.0), FAR], spread=0.0, memory={"roam": roam}, **shape))[0]
             for roam in (0.0, 0.2)
         )
         assert np.hypot(*far) / np.hypot(*near) == pytest.approx((10.0 - 1.0) / (10.0 - 5.0))
@@ -120,7 +120,7 @@ class TestBody:
         share = 1.0 - DEFAULTS["inset"] / 8.5
         home = share * np.stack([memory["station_x"], memory["station_y"]], axis=1)
         assert places(simulation) == pytest.approx(home, abs=0.02)
-        assert np.hypot(simulation.swarm.vx[:50], simulation.swarm.vy[:50]).max() < 0.05
+        assert np.hypot(simulation.swarm.vx[:50], simulation.swarm.vy[:50]).max() < 1.0 * DT  # a step's change
 
     def test_who_has_not_moved_yet_tries_its_top_speed(self):
         simulation = staged("cordon", [(0.0, 0.0), FAR], top=2.0)

@@ -45,6 +45,8 @@ def leaderboard_data(board: Leaderboard) -> dict[str, Any]:
                 "metric": condition.metric,
                 "out_of": condition.out_of,
                 "changes": condition.changes,
+                "scenario": condition.scenario or suite.scenario,
+                "steps": condition.steps or suite.steps,
                 "strategies": _standings(found),
             }
             for condition, found in zip(suite.conditions, board.shares.conditions, strict=True)
