@@ -78,8 +78,7 @@ class TestRoaming:
     def test_who_knows_that_the_target_roams_waits_farther_out(self):
         shape = {"inset": 5.0, "inset_far": 1.0, "roaming": 0.1, "home": 0.1, "home_far": 0.1, "spread_far": 0.0}
         near, far = (
-            DT * wanted(cordon([(0.0, 0.0), FAR], spread=0.0, memory={"roam": roam}, **shape))[0]
-            for roam in (0.0, 0.2)
+            DT * wanted(cordon([(0.0, 0.0), FAR], spread=0.0, memory={"roam": roam}, **shape))[0] for roam in (0.0, 0.2)
         )
         assert np.hypot(*far) / np.hypot(*near) == pytest.approx((10.0 - 1.0) / (10.0 - 5.0))
 

@@ -124,7 +124,7 @@ def decide(me, heard, memory, params, draw):
     away_y = home_y - memory.y
     away = math.sqrt(away_x * away_x + away_y * away_y) + so_near(me)
     fresh = me.time - memory.contact < params.patience * memory.trust
-    swift = max(memory.speed * params.haste / me.briefing.reach, 1.0)
+    swift = min(max(memory.speed * params.haste / max(me.briefing.reach, so_near(me)), 1.0), _SWIFTEST)
     chase = swift * swift * params.chase * quick * me.max_speed / memory.speed
     if not fresh or away >= chase:
         share = me.max_speed * me.time_step / params.span
@@ -208,6 +208,7 @@ def _braked(me, memory, dx, dy):
 
 _NEVER = -1e9  # [s]
 _UNKNOWN = -1e9  # [m/s]
+_SWIFTEST = 1e6  # where nothing is reached
 _SOFTENING = 2.5e-7  # of gap^2, span^2
 _NOTHING = 1e-60  # [m^2]: where they are zero
 
