@@ -8,6 +8,4 @@ from shoal.strategies.contract import strategy as strategy
 
 import_marked("shoal.strategies", "strategy")
 
-RECOMMENDED = (
-    "cordon"  # best or tied for best of all that no truth is told, under every condition of the suite arena-wide
-)
+RECOMMENDED = "cordon"  # what to take where nothing is known: docs/reference/arena-wide.md says how it fares
