@@ -66,6 +66,14 @@ class Placed:
             self.address = self.room.ctypes.data
             put(stage, _layout(), self.room)
 
+    def change(self, field: int, value: Any) -> None:
+        """Put another value, of the same type, where a field of the stage is: where numbers change, such as a run's."""
+        self.stage = type(self.stage)(*(value if at == field else each for at, each in enumerate(self.stage)))
+        if compiles():
+            put(value, _layout()[field], self.room)
+        else:
+            self.address = self.stage
+
 
 def part(stage: Any, field: int) -> Any:
     """One field of the stage at an address, by its index, in kernels."""

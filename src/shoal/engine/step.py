@@ -68,9 +68,21 @@ def run(phase, parts, now, first):
 @kernel
 def listen(parts, arrived, params, now, first):
     """Agents from `first` on sum up their neighbors' influence and choose whom to follow."""
-    world, swarm, scratch = parts.world, parts.swarm, parts.scratch
-    last = first + scratch.leader.size
-    listeners = Listeners(
+    world, scratch = parts.world, parts.scratch
+    listeners = listening(parts, now, first)
+    for turn in range(2):  # the second where ties or losses changed who is heard; written once, compiled once
+        sum_up(arrived, listeners, scratch.links, params, world.agents, scratch.sums)
+        if turn == 1 or run(parts.phases.settle_ties, parts, now, first) == 0:
+            break
+    choose(arrived, listeners, scratch.links, params, world.agents, scratch.leader, scratch.a)
+
+
+@kernel
+def listening(parts, now, first):
+    """The agents from `first` on that decide together, as they listen in this step."""
+    world, swarm = parts.world, parts.swarm
+    last = first + parts.scratch.leader.size
+    return Listeners(
         first,
         swarm.fix_x[first:last],
         swarm.fix_y[first:last],
@@ -82,11 +94,6 @@ def listen(parts, arrived, params, now, first):
         world.time_step,
         now.number * world.time_step,
     )
-    for turn in range(2):  # the second where ties or losses changed who is heard; written once, compiled once
-        sum_up(arrived, listeners, scratch.links, params, world.agents, scratch.sums)
-        if turn == 1 or run(parts.phases.settle_ties, parts, now, first) == 0:
-            break
-    choose(arrived, listeners, scratch.links, params, world.agents, scratch.leader, scratch.a)
 
 
 @kernel

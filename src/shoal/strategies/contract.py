@@ -70,6 +70,7 @@ RESERVED = ("name", "file", "source")  # what else a [strategy] table says
 # No scenario can ask for these, and no strategy of a user is called so.
 TEAM = "(team)"  # its params hold other strategies' params; scenarios make it from fleets.strategy, see team.py
 PUPPET = "(puppet)"  # wants what it is told from outside; the stand-in sea makes it of buoys, see puppet.py
+GUIDED = "(guided)"  # the paper's, with what it is told from outside; environments make it, see guided.py
 CATALOGUE: dict[str, Strategy] = {}  # by name; the last one registered under a name
 _OWNERS: dict[type[Any], Strategy] = {}  # by class of parameters; all that were ever registered
 ARGUMENTS = {  # of the functions of a strategy
@@ -572,6 +573,6 @@ def owner_of(params_class: type[Any]) -> Strategy:
 
 
 def _register(known: Strategy) -> None:
-    if known.name not in (TEAM, PUPPET):
+    if known.name not in (TEAM, PUPPET, GUIDED):
         CATALOGUE[known.name] = known
     _OWNERS[known.params] = known
