@@ -21,6 +21,7 @@ from shoal.engine.observation import Seen, observe
 from shoal.engine.stage import NATURE, PHASES, RADIO, RUN, SCRATCH, SWARM, TALLY, TARGETS, WORLD
 from shoal.engine.step import Now, Parts, decide, listening, run, tell
 
+NOT_ASKED = -1
 REST, STEP, LOOK = 0, 1, 2  # what a swarm does in a call: nothing; a step; it only begins the step it is at, from reset
 
 REWARDS = ("time_on_target", "targets_observed", "engaged", "energy")
@@ -48,7 +49,10 @@ class Earned(NamedTuple):
     """Where the rewards of E swarms are written.
 
     rewards : (E, N), the sum of terms, (E, N, R) in the order of REWARDS, each times its weight, (R,)
+    team : (E,) the mean reward of the agents that are there
     """
+
+    team: Floats
 
     rewards: Floats
     terms: Floats
@@ -59,11 +63,15 @@ class Earned(NamedTuple):
 def step_swarms(stages, memories, params, asked, seen, earned):
     """Let every swarm do what it is asked for; returns 1 + the first whose numbers are not finite, 0: none.
 
+    If actions are not finite, nothing is done, and NOT_ASKED returned.
+
     stages : addresses of E stages, which the caller keeps in place
     memories : those of E swarms, with a leading axis; the stages' memories are views of the same numbers
     seen, earned : where it is written what agents know now, and their rewards
     """
     spoiled, orders, views, rewards = 0, borrow(asked), borrow(seen), borrow(earned)
+    if not _is_asked(orders.actions.ravel()):
+        return NOT_ASKED
     for e in range(asked.doing.size):
         doing = asked.doing[e]
         if doing == REST:
@@ -92,6 +100,15 @@ def step_swarms(stages, memories, params, asked, seen, earned):
         if spoiled == 0 and not _is_sound(parts.swarm, parts.targets, part(stage, NATURE).clock, parts.world.agents):
             spoiled = e + 1
     return spoiled
+
+
+@kernel
+def _is_asked(actions):
+    """Whether all actions are finite."""
+    total = 0.0
+    for action in actions:
+        total += 0.0 * action
+    return total == 0.0
 
 
 @kernel
@@ -151,7 +168,7 @@ def _count_heard(links, agents):
 @kernel
 def reward(swarm, targets, agents, e, earned):
     """Write what each agent of swarm e earns at the state that it is in now."""
-    engaged, present, watched = 0, 0, 0
+    engaged, present, watched, count, team = 0, 0, 0, 0, 0.0
     for i in range(agents):
         engaged += 1 if swarm.engaged[i] else 0
     for target in targets:
@@ -168,6 +185,9 @@ def reward(swarm, targets, agents, e, earned):
         for term in range(earned.weights.size):
             total += earned.weights[term] * earned.terms[e, i, term]
         earned.rewards[e, i] = total
+        team += total
+        count += 1 if there else 0
+    earned.team[e] = team / max(count, 1)
 
 
 @kernel

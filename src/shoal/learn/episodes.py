@@ -6,8 +6,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from shoal.core.agents import Floats
-from shoal.engine.environment import REWARDS
 from shoal.learn.errors import LearnError
 from shoal.learn.spec import Act, Observe, acting, earned_by, names_of, seen_by
 from shoal.run.swarms import Swarms
@@ -32,6 +30,7 @@ class Episodes:
     ----------
     observations : (E, N, F), of what is known now; names : of what each of the F numbers is
     rewards, terms, there : (E, N), (E, N, R), (E, N) each agent's, what they are the weighted sum of, who is there
+    team_rewards : (E,) the mean reward of the agents that are there
     seeds, runs : (E,) of the episodes
     swarms : what runs
 
@@ -50,7 +49,7 @@ class Episodes:
         self.count, self.observed = count, seen
         self.names = names_of(observe, seen)
         self.observations, self.there = seen.observations, seen.there
-        self.rewards, self.terms = earned.rewards, earned.terms
+        self.rewards, self.terms, self.team_rewards = earned.rewards, earned.terms, earned.team
         self.swarms = Swarms(scenario, count, crew, actions, seen, earned)
         self.actions = self.swarms.actions
         self.seeds = [int(scenario.seed)] * count
@@ -80,8 +79,8 @@ class Episodes:
             self._begin(int(e))
         self.swarms.step(None)
 
-    def step(self, actions: Any, anew: npt.NDArray[np.bool_]) -> None:
-        """Do a step of all swarms; those that are to begin `anew`, (E,), begin their next episode instead.
+    def step(self, actions: Any, anew: Sequence[int] = ()) -> None:
+        """Do a step of all swarms; those that are to begin `anew` begin their next episode instead, and earn nothing.
 
         Raises
         ------
@@ -92,13 +91,14 @@ class Episodes:
         if wanted.shape != self.actions.shape:
             problem = f"are of shape {wanted.shape}, where {self.actions.shape} are asked for"
             raise LearnError("actions", problem, "give each agent of each swarm its numbers")
-        if not np.isfinite(wanted).all():
-            raise LearnError("actions", "are not finite", "look for a division by zero in the policy")
-        for e in np.flatnonzero(anew):
-            self._begin(int(e))
-        self.swarms.step(wanted)
-        self.rewards[anew] = 0.0
-        self.terms[anew] = 0.0
+        if anew and not np.isfinite(wanted).all():  # before anything begins anew
+            raise _not_finite()
+        for e in anew:
+            self._begin(e)
+        if not self.swarms.step(wanted):
+            raise _not_finite()
+        for e in anew:
+            self.rewards[e], self.terms[e], self.team_rewards[e] = 0.0, 0.0, 0.0
 
     def over(self) -> npt.NDArray[np.bool_]:
         """Which episodes have done all their steps, (E,)."""
@@ -107,10 +107,6 @@ class Episodes:
     def gone(self, e: int) -> npt.NDArray[np.bool_]:
         """Which agents of a swarm are lost for good, (N,)."""
         return np.asarray(self.swarms.swarm(e).leaves[: self.scenario.agents] <= self.swarms.number[e])
-
-    def team_rewards(self) -> Floats:
-        """The mean reward of the agents that are there, (E,)."""
-        return np.asarray((self.rewards * self.there).sum(axis=1) / np.maximum(self.there.sum(axis=1), 1))
 
     def _begin(self, e: int) -> None:
         if self._begun[e]:
@@ -129,4 +125,5 @@ class Episodes:
         return seeds
 
 
-__all__ = ["REWARDS", "Episodes"]
+def _not_finite() -> LearnError:
+    return LearnError("actions", "are not finite", "look for a division by zero in the policy")

@@ -96,7 +96,7 @@ class ParallelEnv(PETTINGZOO_PARALLEL_ENV):  # type: ignore[misc]
         for agent, action in actions.items():
             wanted[0, self._number[agent]] = action
         episodes = self.episodes
-        episodes.step(wanted, np.zeros(1, np.bool_))
+        episodes.step(wanted)
         gone, over = episodes.gone(0), bool(episodes.over()[0])
         terminations = {agent: bool(gone[self._number[agent]]) for agent in self.agents}
         truncations = {agent: over and not terminations[agent] for agent in self.agents}

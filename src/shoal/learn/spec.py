@@ -110,7 +110,7 @@ def earned_by(reward: Mapping[str, float], agents: int, count: int) -> Earned:
     if not reward:
         raise LearnError("reward", "is for nothing", f"weigh some of: {', '.join(REWARDS)}")
     weights = np.array([float(reward.get(name, 0.0)) for name in REWARDS])
-    return Earned(np.zeros((count, agents)), np.zeros((count, agents, len(REWARDS))), weights)
+    return Earned(np.zeros(count), np.zeros((count, agents)), np.zeros((count, agents, len(REWARDS))), weights)
 
 
 def acting(act: Act, scenario: Scenario) -> tuple[Crew, Actions]:

@@ -64,7 +64,7 @@ class VectorEnv(GYMNASIUM_VECTOR_ENV):  # type: ignore[misc]
         self.observation_space = batched(self.single_observation_space, num_envs)
         self.action_space = batched(self.single_action_space, num_envs)
         self._autoreset, self._copy = autoreset, copy
-        self._over = np.zeros(num_envs, np.bool_)
+        self._over, self._any_over = np.zeros(num_envs, np.bool_), False
 
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: Mapping[str, Any] | None = None
@@ -85,6 +85,7 @@ class VectorEnv(GYMNASIUM_VECTOR_ENV):  # type: ignore[misc]
             super().reset(seed=int(seed))
         self.episodes.reset(seed, which)
         self._over[slice(None) if which is None else which] = False
+        self._any_over = bool(self._over.any())
         return self._given(self.episodes.observations), {}
 
     def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
@@ -95,20 +96,20 @@ class VectorEnv(GYMNASIUM_VECTOR_ENV):  # type: ignore[misc]
         actions : (E, N, A), of any library whose arrays NumPy takes
         """
         episodes, infos = self.episodes, {}
-        if self._autoreset == "disabled" and self._over.any():
-            problem = f"of swarm {int(np.flatnonzero(self._over)[0])} is over"
+        anew = [int(e) for e in np.flatnonzero(self._over)] if self._any_over else []
+        if anew and self._autoreset == "disabled":
+            problem = f"of swarm {anew[0]} is over"
             raise LearnError("the episode", problem, 'begin the next one: reset(options={"reset_mask": ...})')
-        anew = self._over & (self._autoreset == "next-step")
         episodes.step(actions, anew)
-        rewards = episodes.team_rewards()
-        rewards[anew] = 0.0
+        rewards = self._given(episodes.team_rewards)
         terminated = self._all_lost()
         truncated = episodes.over() & ~terminated
         self._over = terminated | truncated
-        if self._autoreset == "same-step" and self._over.any():
+        self._any_over = bool(self._over.any())
+        if self._any_over and self._autoreset == "same-step":
             infos = self._last_words()
             episodes.reset(None, self._over)
-            self._over = np.zeros_like(self._over)
+            self._any_over = False
         return self._given(episodes.observations), rewards, terminated, truncated, infos
 
     def _all_lost(self) -> Any:

@@ -1,6 +1,6 @@
 """Swarms: many runs of one scenario, side by side, a step of all of them in one compiled call; decided from outside."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,7 +12,7 @@ from shoal.compiler.placed import Placed
 from shoal.core.agents import Floats, aligned_zeros, as_records
 from shoal.core.errors import ScenarioError, StrategyError
 from shoal.core.plugin_errors import plugin_errors
-from shoal.engine.environment import LOOK, REST, STEP, Asked, Earned, step_swarms
+from shoal.engine.environment import LOOK, NOT_ASKED, REST, STEP, Asked, Earned, step_swarms
 from shoal.engine.observation import Seen
 from shoal.engine.rollout import begin_run, set_out
 from shoal.engine.stage import RUN, Run, Stage, new_scratch
@@ -92,6 +92,7 @@ class Swarms:
         self.number = np.zeros(count, np.int64)
         wanted = np.zeros((count, scenario.agents, actions.columns.size))
         self.actions = wanted
+        self._begun = False
         self._asked = Asked(np.full(count, REST), self.number, wanted, *actions)
         self._views = (seen, earned)
         with plugin_errors(), crew.naming_errors():
@@ -112,13 +113,14 @@ class Swarms:
             self._begin(address, self._memories_of(e), self._params)
         self.number[e] = 0
         self._asked.doing[e] = LOOK
+        self._begun = True
 
-    def step(self, actions: Any, resting: Sequence[int] = ()) -> None:
-        """Do a step of all swarms but those `resting`; those that were reset only say what their agents know.
+    def step(self, actions: Any) -> bool:
+        """Do a step of all swarms; those that were reset only say what their agents know. False: nothing was done.
 
         Parameters
         ----------
-        actions : (E, N, A), or None: nobody takes a step, those that were reset are looked at
+        actions : (E, N, A), finite, else nothing is done; None: nobody takes a step, those that were reset are looked at
 
         Raises
         ------
@@ -127,15 +129,20 @@ class Swarms:
         doing = self._asked.doing
         if actions is None:
             doing[doing == STEP] = REST
+            self.actions[:] = 0.0
+            self._begun = True
         else:
-            np.copyto(self._asked.actions, actions, casting="same_kind")
-            doing[list(resting)] = REST
-        with plugin_errors(), self.crew.naming_errors():
-            spoiled = self._step(self._addresses, self._memories, self._params, self._asked, *self._views)
-        doing[:] = STEP
+            np.copyto(self.actions, actions, casting="same_kind")
+        spoiled = self._step(self._addresses, self._memories, self._params, self._asked, *self._views)
+        if spoiled == NOT_ASKED:
+            return False
+        if self._begun:
+            doing[:] = STEP
+            self._begun = False
         if spoiled:
             fix = "look for a division by zero or the root of a negative number, in the strategy or what it was told"
             raise StrategyError(self.crew.source, f"swarm {spoiled - 1} has a number that is not finite", fix)
+        return True
 
     def swarm(self, e: int) -> Any:
         """The arrays of swarm e, padded: the first N lanes count. To look at."""
