@@ -34,6 +34,7 @@ app.command("shoal.cli.sweep:sweep", name="sweep", help="Run every combination o
 app.command("shoal.cli.tune:tune", name="tune", help="Look for the best values of some fields of a scenario.")
 app.command("shoal.cli.design:design", name="design", help="Look for the fleets that are worth their cost.")
 app.command("shoal.cli.compare.command:compare", name="compare", help="Compare strategies, with the same seeds.")
+app.command("shoal.cli.learn:learn", name="learn", help="Learn the weights of a strategy, by evolution.")
 app.command("shoal.cli.reproduce:reproduce", name="reproduce", help="Reproduce a paper: its figures, its claims.")
 app.command("shoal.cli.results:results", name="results", help="Print means and 95 % intervals of a sweep.")
 app.command("shoal.cli.results:plot", name="plot", help="Draw a metric of a sweep against a field.")

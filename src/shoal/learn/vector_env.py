@@ -107,7 +107,7 @@ class VectorEnv(GYMNASIUM_VECTOR_ENV):  # type: ignore[misc]
         self._over = terminated | truncated
         self._any_over = bool(self._over.any())
         if self._any_over and self._autoreset == "same-step":
-            infos = self._last_words()
+            infos, rewards = self._last_words(), rewards.copy()  # what follows writes the first of the next episode
             episodes.reset(None, self._over)
             self._any_over = False
         return self._given(episodes.observations), rewards, terminated, truncated, infos
