@@ -31,6 +31,7 @@ swept table text thought tide top tree turn uniform unknown varied vehicle versi
 waiting weight word writer xml datagram port serial stream unready aboard attend killing late letter note obedient paced
 borrowed deferral process quickest sail serve storm term tied zenoh relayed listed many template vector
 form gpu hear known nearest packed place measured promising searching spread start
+act asked earned learn observe train
 """  # words that mean what any dictionary says, and file formats
 PLAIN = frozenset(DICTIONARY.split())
 KINDS = [*TARGETS, *DISTURBANCES]

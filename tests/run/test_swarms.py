@@ -17,8 +17,8 @@ FLEETS = [
     {"name": "slow", "count": 35, "max_speed": 1.0, "max_acceleration": 4.0, **POOR},
 ]
 TWO = [
-    {"kind": "waypoint", "radius": 1.0, "speed": 3.0, "margin": 2.0},
-    {"kind": "evasive", "radius": 1.0, "speed": 1.0},
+    {"kind": "still", "x": 3.0, "y": -2.0, "radius": 1.0},
+    {"kind": "evasive", "radius": 1.0, "speed": 1.0, "margin": 2.0, "sight": 3.0, "wall_sight": 2.0},
 ]
 RADIO = {"neighbors": 12, "range": 7.0, "loss": 0.2, "delay": 2, "interval": 0.3}
 COAST = {"sea": {"coast": [[[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]]]}}
@@ -52,9 +52,7 @@ def replayed(chosen, run, actions):
     return simulation
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=pytest.mark.slow if name in SLOW else ()) for name in CASES]
-)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow if name in SLOW else ()) for name in CASES])
 def test_the_same_seed_and_actions_give_the_same_bits_as_a_simulation(name):
     chosen = scenario("oceans2020", {"steps": STEPS, **CASES[name]})
     env = episodes(chosen)
@@ -68,7 +66,7 @@ def test_the_same_seed_and_actions_give_the_same_bits_as_a_simulation(name):
         simulation = replayed(chosen, 2 + e, actions[:, e].astype(float))
         mine, its = env.swarms.swarm(e), simulation.swarm
         for field in ("x", "y", "vx", "vy", "on_target", "engaged", "alive", "fix_x", "neighbors", "leaves"):
-            assert np.array_equal(getattr(mine, field), getattr(its, field)), field
+            assert np.array_equal(getattr(mine, field)[:50], getattr(its, field)[:50]), field
         assert np.array_equal(env.swarms.targets(e).x, simulation.targets.x)
         assert np.array_equal(env.swarms.targets(e).y, simulation.targets.y)
 
@@ -82,8 +80,9 @@ def test_a_recorded_run_is_replayed_to_the_bit():
         simulation.advance(1)
         wanted = np.stack([simulation.swarm.command_x[:50], simulation.swarm.command_y[:50]], axis=1)
         env.step(wanted[None])
-        assert np.array_equal(env.swarms.swarm(0).x, simulation.swarm.x)
-        assert np.array_equal(env.swarms.swarm(0).vy, simulation.swarm.vy)
+        for field in ("x", "y", "vx", "vy", "on_target"):
+            mine, its = getattr(env.swarms.swarm(0), field), getattr(simulation.swarm, field)
+            assert np.array_equal(mine[:50], its[:50]), field
 
 
 @pytest.mark.slow

@@ -11,8 +11,7 @@ from numba import types
 from numba.core.boxing import unbox_tuple
 from numba.core.datamodel.models import TupleModel
 from numba.core.datamodel.registry import default_manager
-from numba.core.cgutils import get_null_value
-from numba.extending import NativeValue, lower_builtin, type_callable, unbox
+from numba.extending import NativeValue, unbox
 
 _MODEL: Any = TupleModel  # numba has no types that mypy sees
 _manager: Any = default_manager
@@ -58,34 +57,3 @@ def _from_python(kind: Any, given: Any, context: Any) -> Any:
             context.context.nrt.decref(context.builder, each, context.builder.extract_value(native.value, place))
 
     return _value(native.value, is_error=native.is_error, cleanup=cleanup)
-
-
-def borrow(value: Any) -> Any:
-    """The same NamedTuple with arrays to which nobody counts references, for a kernel that writes to them in loops.
-
-    To be called in an entry kernel on its argument, which is Python's for longer than the kernel runs. (An array that is
-    counted costs more to name than a number to write.)
-    """
-    return value
-
-
-@type_callable(borrow)
-def _type_of_borrowed(context):
-    return lambda value: value if isinstance(value, types.BaseTuple) else None
-
-
-@lower_builtin(borrow, types.BaseTuple)
-def _borrow(context, builder, signature, arguments):
-    return _without_owners(context, builder, signature.return_type, arguments[0])
-
-
-def _without_owners(context: Any, builder: Any, kind: Any, value: Any) -> Any:
-    if isinstance(kind, types.BaseTuple):
-        parts = [builder.extract_value(value, place) for place in range(len(kind))]
-        parts = [_without_owners(context, builder, each, part) for each, part in zip(kind, parts, strict=True)]
-        return context.make_tuple(builder, kind, parts)
-    if isinstance(kind, types.Array):
-        array = context.make_array(kind)(context, builder, value)
-        array.meminfo = get_null_value(array.meminfo.type)
-        return array._getvalue()
-    return value

@@ -187,6 +187,40 @@ def _load(context, builder, signature, arguments):
     return unowned(context, builder, stage[place], cgutils.gep_inbounds(builder, pointer, 0, place))
 
 
+def borrow(value: Any) -> Any:
+    """The same NamedTuple with arrays to which nobody counts references, for an entry kernel that writes to many.
+
+    It is an argument from Python, which has it for longer than the kernel runs. (To name an array that is counted costs
+    more than to write a number.)
+    """
+    return value
+
+
+@type_callable(borrow)
+def _type_of_borrowed(context):
+    return lambda value: value if isinstance(value, _TUPLE) else None
+
+
+@lower_builtin(borrow, _TUPLE)
+def _borrow(context, builder, signature, arguments):
+    return _without_owners(context, builder, signature.return_type, arguments[0])
+
+
+def _without_owners(context: Any, builder: Any, kind: Any, value: Any) -> Any:
+    """A value with its arrays' owners set to nobody."""
+    if isinstance(kind, _TUPLE):
+        parts = [
+            _without_owners(context, builder, each, builder.extract_value(value, place))
+            for place, each in enumerate(kind)
+        ]
+        return context.make_tuple(builder, kind, parts)
+    if isinstance(kind, types.Array):
+        array = context.make_array(kind)(context, builder, value)
+        array.meminfo = cgutils.get_null_value(array.meminfo.type)
+        return array._getvalue()
+    return value
+
+
 def unowned(context: Any, builder: Any, kind: Any, pointer: Any) -> Any:
     """The value at a pointer, with arrays that nobody counts references to: their owner is set to nobody (null)."""
     if isinstance(kind, _TUPLE):

@@ -10,14 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from shoal.compiler.borrowed import borrow
 from shoal.compiler.kernel import entry_kernel, kernel, overload
 from shoal.compiler.lanes import WIDTH, either, everywhere, put, take
-from shoal.compiler.placed import part
+from shoal.compiler.placed import borrow, part
 from shoal.core.agents import Floats
 from shoal.core.draws import split
 from shoal.engine.arrivals import arriving, choose, sum_up
-from shoal.engine.observation import Seen, observe
+from shoal.engine.observation import observe
 from shoal.engine.stage import NATURE, PHASES, RADIO, RUN, SCRATCH, SWARM, TALLY, TARGETS, WORLD
 from shoal.engine.step import Now, Parts, decide, listening, run, tell
 

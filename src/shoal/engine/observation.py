@@ -22,13 +22,13 @@ REPORT = ("heard", "dx", "dy", "vx", "vy", "on_target")
 class Block(NamedTuple):
     """Scratch of the agents that are observed together, as lanes.
 
-    who : (WIDTH,) their indices; count : (WIDTH,) how many each hears
+    who : (WIDTH,) their indices; heard : (WIDTH,) how many each hears
     speaker, hears : (N,) those whom any of them may hear, and which of them do, a bit per lane
     near : (WIDTH, N) whom each hears; square, rank : (N, WIDTH) how far away [m^2], and how many of these are nearer
     """
 
     who: npt.NDArray[np.int64]
-    count: npt.NDArray[np.int64]
+    heard: npt.NDArray[np.int64]
     speaker: npt.NDArray[np.int64]
     hears: npt.NDArray[np.int64]
     near: npt.NDArray[np.int64]
@@ -41,7 +41,8 @@ class Seen(NamedTuple):
 
     there : (E, N) whether an agent is there; of others all numbers are 0
     own, report : which of OWN and REPORT, in their order, a bit each; memory : the columns of it
-    slots : of how many reports; width : how many numbers of each; per_length [1/m], per_speed [s/m] : 1 / what counts as 1
+    slots : of how many reports; width : how many numbers of each
+    per_length [1/m], per_speed [s/m] : 1 / what counts as 1
     most : no number is farther from 0, but what is remembered
     """
 
@@ -60,8 +61,15 @@ class Seen(NamedTuple):
 
 def new_block(agents: int) -> Block:
     """Scratch for a swarm of so many agents."""
-    lanes, speakers = np.zeros((2, WIDTH), np.int64), np.zeros((2, agents), np.int64)
-    return Block(*lanes, *speakers, np.zeros((WIDTH, agents), np.int64), *np.zeros((2, agents, WIDTH)))
+    return Block(
+        who=np.zeros(WIDTH, np.int64),
+        heard=np.zeros(WIDTH, np.int64),
+        speaker=np.zeros(agents, np.int64),
+        hears=np.zeros(agents, np.int64),
+        near=np.zeros((WIDTH, agents), np.int64),
+        square=np.zeros((agents, WIDTH)),
+        rank=np.zeros((agents, WIDTH)),
+    )
 
 
 @kernel
@@ -75,7 +83,7 @@ def observe(parts, arrived, e, seen):
             speakers = _hear_by_lists(links.lists, first, agents, block)
         for lane in range(WIDTH):
             there = block.who[lane] < agents
-            block.count[lane] = _list(block.near[lane], block.speaker, block.hears, speakers, lane) if there else 0
+            block.heard[lane] = _list(block.near[lane], block.speaker, block.hears, speakers, lane) if there else 0
             _measure(swarm, arrived, block.near[lane], lane, block)
         _rank(block)
         for lane in range(WIDTH):
@@ -121,7 +129,7 @@ def _list(near, speaker, hears, speakers, lane):
 def _measure(swarm, arrived, near, lane, block):
     """Measure how far away those are whom a lane hears, by what they say."""
     i = block.who[lane]
-    for c in range(block.count[lane]):
+    for c in range(block.heard[lane]):
         x, y, _, _, _ = said_by(arrived, near[c], i)
         dx, dy = x - swarm.fix_x[i], y - swarm.fix_y[i]
         block.square[c, lane] = dx * dx + dy * dy
@@ -132,9 +140,9 @@ def _rank(block):
     """Count how many of those whom a lane hears are nearer than each of them."""
     most, none = 0, everywhere(0.0)
     for lane in range(WIDTH):
-        most = max(most, block.count[lane])
+        most = max(most, block.heard[lane])
     for lane in range(WIDTH):
-        for c in range(block.count[lane], most):
+        for c in range(block.heard[lane], most):
             block.square[c, lane] = np.inf
     for c in range(most):
         square, rank = take(block.square, (c, 0), none), none
@@ -155,7 +163,7 @@ def _write(swarm, arrived, e, lane, seen):
         _clear(row, 0, row.size)
         return
     x, y = swarm.fix_x[i], swarm.fix_y[i]
-    first, width, count = _write_oneself(row, swarm, i, seen), seen.width, block.count[lane]
+    first, width, count = _write_oneself(row, swarm, i, seen), seen.width, block.heard[lane]
     last = first + width * seen.slots
     for c in range(count):
         slot = int(block.rank[c, lane])
@@ -165,12 +173,9 @@ def _write(swarm, arrived, e, lane, seen):
     _write_memory(row, last, swarm.memory[i], seen.memory)
 
 
-# A row must be an argument of whoever writes into it, see the trap in compiler/kernel.py.
-
-
 @kernel
 def _clear(row, first, last):
-    for field in range(first, last):
+    for field in range(first, last):  # rows are arguments of whoever writes: see the trap in compiler/kernel.py
         row[field] = 0.0
 
 
@@ -218,8 +223,8 @@ def _write_oneself(row, swarm, i, seen):
 def _write_report(row, said, own_x, own_y, seen):
     """Write what a report says, in the order of REPORT; its place as seen from who hears it [m]."""
     x, y, vx, vy, on_target = said
-    report, per_length, per_speed, most, at = seen.report, seen.per_length, seen.per_speed, seen.most, np.uint64(0)
-    one = np.uint64(1)
+    report, per_length, per_speed, most = seen.report, seen.per_length, seen.per_speed, seen.most
+    at, one = np.uint64(0), np.uint64(1)
     if report & 1:
         row[at] = 1.0
         at += one

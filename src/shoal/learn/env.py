@@ -1,4 +1,4 @@
-"""Environments to learn in: swarms by the dozen for Gymnasium, a swarm of agents for PettingZoo; docs/how-to/learn.md."""
+"""Environments to learn in: swarms by the dozen for Gymnasium, a swarm for PettingZoo; see docs/how-to/learn.md."""
 
 from shoal.learn.parallel_env import ParallelEnv
 from shoal.learn.spec import Act, Observe

@@ -1,4 +1,4 @@
-"""Episodes: swarms that begin runs anew, what their agents know, and what they earn; what both environments are made of."""
+"""Episodes: swarms that begin runs anew, what their agents know and earn; what both environments are made of."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -72,8 +72,8 @@ class Episodes:
         chosen = range(self.count) if which is None else np.flatnonzero(which)
         seeds = self._checked(seed)
         for e in chosen:
-            if seeds[e] is not None:
-                self.seeds[e], self._begun[e] = int(seeds[e]), False
+            if (own := seeds[e]) is not None:
+                self.seeds[e], self._begun[e] = own, False
                 self._stride = self.count if isinstance(seed, int | np.integer) else 1
                 self.runs[e] = e if self._stride > 1 else 0
             self._begin(int(e))
@@ -115,14 +115,14 @@ class Episodes:
         self.swarms.reset(e, self.seeds[e], int(self.runs[e]))
 
     def _checked(self, seed: Any) -> list[int | None]:
-        seeds = [seed] * self.count if seed is None or isinstance(seed, int | np.integer) else list(seed)
+        seeds: list[Any] = [seed] * self.count if seed is None or isinstance(seed, int | np.integer) else list(seed)
         if len(seeds) != self.count:
             raise LearnError("seed", f"has {len(seeds)} numbers for {self.count} swarms", "give one, or one for each")
         for each in seeds:
             whole = isinstance(each, int | np.integer) and not isinstance(each, bool) and 0 <= each < 2**64
             if each is not None and not whole:
                 raise LearnError("seed", f"is {each!r}", "give a whole number from 0")
-        return seeds
+        return [None if each is None else int(each) for each in seeds]
 
 
 def _not_finite() -> LearnError:

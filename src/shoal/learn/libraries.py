@@ -1,4 +1,4 @@
-"""The libraries of environments, which are extras: what ours are derived from, and what is said where they are absent."""
+"""The libraries of environments: what ours are derived from, and what is said where they are not installed."""
 
 from importlib import import_module
 from typing import Any

@@ -72,7 +72,8 @@ def seen_by(observe: Observe, scenario: Scenario, crew: Crew, count: int) -> See
     most = agents - 1
     slots = _most_heard(scenario, crew) if observe.reports is None else observe.reports
     if not 0 <= slots <= most:
-        raise LearnError("observe.reports", f"is {slots}, but {agents} agents hear {most} others at most", "ask for less")
+        problem = f"is {slots}, but {agents} agents hear {most} others at most"
+        raise LearnError("observe.reports", problem, "ask for 0 or more, up to that")
     width = len(observe.report) if slots else 0
     size = len(observe.own) + width * slots + len(observe.memory)
     if size == 0:

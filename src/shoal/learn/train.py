@@ -128,9 +128,7 @@ def train(
             runs.close()
     bounds = bounds_of("time_on_target")
     before, after = (estimate(each, bounds=bounds) for each in fresh)
-    return Learned(
-        out, name, before, after, _named(weights, best), len(centers), best is not first
-    )
+    return Learned(out, name, before, after, _named(weights, best), len(centers), best is not first)
 
 
 @contextmanager

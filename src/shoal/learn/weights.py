@@ -103,18 +103,23 @@ def rewritten(text: str, owner: Any, name: str, weights: Sequence[Weight], value
     for node in ast.walk(tree):
         if isinstance(node, ast.ClassDef) and node.name == owner.params.__name__:
             for field in node.body:
-                if isinstance(field, ast.AnnAssign) and isinstance(field.target, ast.Name) and field.value:
-                    if field.target.id in wanted:
-                        places.append((field.value, wanted.pop(field.target.id)))
-        elif isinstance(node, ast.Call) and node.args and isinstance(node.args[0], ast.Constant):
-            if node.args[0].value == owner.name and ast.unparse(node.func).split(".")[-1] == "strategy":
-                places.append((node.args[0], f'"{name}"'))
+                if isinstance(field, ast.AnnAssign) and field.value and (called := ast.unparse(field.target)) in wanted:
+                    places.append((field.value, wanted.pop(called)))
+        elif isinstance(node, ast.Call) and _names_strategy(node, owner.name):
+            places.append((node.args[0], f'"{name}"'))
     renamed = any(new == f'"{name}"' for _, new in places)
     if wanted or not renamed:
         what = f"weight {next(iter(wanted))!r}" if wanted else "its name"
         fix = "declare it there: a NamedTuple with defaults, and @shoal.strategy with the name as text"
         raise LearnError(owner.source, f"does not declare {what} in plain sight", fix)
     return _replaced(text, places)
+
+
+def _names_strategy(call: ast.Call, name: str) -> bool:
+    """Whether a call is that of @strategy with this name."""
+    first = call.args[0] if call.args else None
+    named = isinstance(first, ast.Constant) and first.value == name
+    return named and ast.unparse(call.func).split(".")[-1] == "strategy"
 
 
 def source_text(owner: Any) -> str:

@@ -65,7 +65,9 @@ class Swarms:
     ScenarioError : agents decide one after the other, or are under commands: there is no one moment to decide for all
     """
 
-    def __init__(self, scenario: Scenario, count: int, crew: Crew, actions: Actions, seen: Seen, earned: Earned) -> None:
+    def __init__(
+        self, scenario: Scenario, count: int, crew: Crew, actions: Actions, seen: Seen, earned: Earned
+    ) -> None:
         if scenario.motion.update_order == "sequential":
             problem = "is sequential: agents decide one after the other, on what the others have just done"
             raise ScenarioError("motion.update_order", problem, "an environment decides for all at once: synchronous")
@@ -120,7 +122,7 @@ class Swarms:
 
         Parameters
         ----------
-        actions : (E, N, A), finite, else nothing is done; None: nobody takes a step, those that were reset are looked at
+        actions : (E, N, A), finite, else nothing is done; None: those that were reset are looked at, the others rest
 
         Raises
         ------
