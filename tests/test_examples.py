@@ -81,3 +81,25 @@ def test_the_code_of_the_page_on_buoys_runs(capsys):
     code, *_ = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
     exec(code, {})
     assert len(capsys.readouterr().out.split()) == 2
+
+
+def test_the_code_of_the_page_on_learning_runs():
+    pytest.importorskip("pettingzoo", reason="environments need pip install '.[rl]'")
+    pytest.importorskip("gymnasium", reason="environments need pip install '.[rl]'")
+    page = (ROOT / "docs/how-to/learn.md").read_text(encoding="utf-8")
+    agents, swarms, _ = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
+    scope = {}
+    exec(agents.replace("steps=1000", "steps=20"), scope)
+    assert scope["env"].agents == []
+    exec(swarms, scope)
+    assert f"  # {scope['observations'].shape}" in swarms
+
+
+@pytest.mark.slow
+def test_the_example_that_evolves_gains(tmp_path):
+    pytest.importorskip("gymnasium", reason="environments need pip install '.[rl]'")
+    script = ROOT / "examples/learning/evolve.py"
+    done = subprocess.run([sys.executable, script, "8"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    before, after = map(float, re.findall(r"([\d.]+) (?:before|after)", done.stdout))
+    assert after > before

@@ -1,4 +1,4 @@
-"""PPO with one policy for all buoys, on 16 swarms at a time. Needs PyTorch, which Shoal does not: pip install torch.
+"""PPO with one network for all buoys, on 16 swarms at a time. Needs JAX, which Shoal does not: pip install jax.
 
     python examples/learning/ppo.py [seconds]
 
@@ -7,109 +7,130 @@ Schulman et al., "Proximal Policy Optimization Algorithms", arXiv 1707.06347; ev
 
 import sys
 import time
+from functools import partial
 
-import torch
-from torch import nn
+import jax
+import jax.numpy as jnp
+import numpy as np
 
 import shoal
 from shoal.learn.env import Observe, VectorEnv
 
 SWARMS, ROLLOUT, EPOCHS, BATCH = 16, 64, 4, 6400
-DISCOUNT, SMOOTHING, CLIP, RATE, ENTROPY = 0.97, 0.95, 0.2, 3e-4, 1e-3
+DISCOUNT, SMOOTHING, CLIP, RATE, ENTROPY = 0.97, 0.95, 0.2, 5e-4, 1e-3
+HIDDEN = 64
 
 
-class Policy(nn.Module):
-    """What a buoy knows in; the mean of what it does and what that is worth out."""
-
-    def __init__(self, knows: int, does: int) -> None:
-        super().__init__()
-        self.actor = nn.Sequential(nn.Linear(knows, 64), nn.Tanh(), nn.Linear(64, 64), nn.Tanh(), nn.Linear(64, does))
-        self.critic = nn.Sequential(nn.Linear(knows, 64), nn.Tanh(), nn.Linear(64, 64), nn.Tanh(), nn.Linear(64, 1))
-        self.spread = nn.Parameter(torch.full((does,), -0.5))
-
-    def around(self, known: torch.Tensor) -> torch.distributions.Normal:
-        return torch.distributions.Normal(self.actor(known), self.spread.exp())
-
-    def worth(self, known: torch.Tensor) -> torch.Tensor:
-        return self.critic(known).squeeze(-1)
+def network(key, sizes):
+    """Weights and biases of each layer."""
+    keys = jax.random.split(key, len(sizes) - 1)
+    shapes = zip(keys, sizes[:-1], sizes[1:], strict=True)
+    return [(jax.random.normal(each, (a, b)) / np.sqrt(a), jnp.zeros(b)) for each, a, b in shapes]
 
 
-def rollout(env: VectorEnv, policy: Policy) -> tuple[torch.Tensor, ...]:
-    """What all buoys knew, did, how likely that was, and how much better than thought it turned out: (T E N, ...)."""
-    episodes = env.episodes
-    seen = torch.from_dlpack(episodes.observations)  # no copy: the engine writes here
-    earned = torch.from_dlpack(episodes.rewards)
-    known, done, chance, rewards, values, ends = [], [], [], [], [], []
-    for _ in range(ROLLOUT):
-        with torch.no_grad():
-            around = policy.around(seen)
-            action = around.sample()
-            known.append(seen.clone())
-            done.append(action)
-            chance.append(around.log_prob(action).sum(-1))
-            values.append(policy.worth(seen))
-        _, _, _, truncated, _ = env.step(action.clamp(-1.0, 1.0).numpy())
-        rewards.append(earned.float())  # a copy
-        ends.append(torch.from_numpy(truncated)[:, None].float())
-    with torch.no_grad():
-        after = policy.worth(seen)
-    gain, gains = torch.zeros_like(after), []
+def forward(layers, x):
+    for weights, bias in layers[:-1]:
+        x = jnp.tanh(x @ weights + bias)
+    weights, bias = layers[-1]
+    return x @ weights + bias
+
+
+def log_chance(policy, known, done):
+    """How likely a buoy that knows this does that, and its mean: a normal distribution around the actor's output."""
+    spread, mean = jnp.exp(policy["spread"]), forward(policy["actor"], known)
+    return (-0.5 * ((done - mean) / spread) ** 2 - policy["spread"]).sum(-1)
+
+
+@jax.jit
+def act(policy, known, key):
+    """What each buoy does, how likely that was, and what it thinks its state is worth."""
+    mean = forward(policy["actor"], known)
+    done = mean + jnp.exp(policy["spread"]) * jax.random.normal(key, mean.shape)
+    return done, log_chance(policy, known, done), forward(policy["critic"], known)[..., 0]
+
+
+def rollout(env, policy, key):
+    """What all buoys knew, did, how likely that was, how much better than thought it was, and its worth: (T E N, ...)."""
+    episodes, rows = env.episodes, []
+    for each in jax.random.split(key, ROLLOUT):
+        known = episodes.observations.copy()
+        done, chance, worth = act(policy, known, each)
+        _, _, _, truncated, _ = env.step(np.clip(done, -1.0, 1.0))
+        rows.append((known, done, chance, worth, episodes.rewards.copy(), truncated[:, None]))
+    known, done, chance, worth, rewards, ends = (np.stack(column) for column in zip(*rows, strict=True))
+    after, gain, gains = np.asarray(act(policy, episodes.observations, key)[2]), 0.0, np.zeros_like(worth)
     for t in reversed(range(ROLLOUT)):  # an episode that is cut off is worth what its last state is thought to be
-        better = rewards[t] + DISCOUNT * after * (1 - ends[t]) + DISCOUNT * values[t] * ends[t] - values[t]
-        gain = better + DISCOUNT * SMOOTHING * (1 - ends[t]) * gain
-        gains.insert(0, gain)
-        after = values[t]
-    parts = (torch.stack(each) for each in (known, done, chance, gains, values))
-    return tuple(part.reshape(-1, *part.shape[3:]) for part in parts)
+        after = np.where(ends[t], worth[t], after)
+        gain = rewards[t] + DISCOUNT * after - worth[t] + DISCOUNT * SMOOTHING * ~ends[t] * gain
+        gains[t], after = gain, worth[t]
+    return tuple(each.reshape(-1, *each.shape[3:]) for each in (known, done, chance, gains, gains + worth))
 
 
-def learn(policy: Policy, optimizer: torch.optim.Optimizer, samples: tuple[torch.Tensor, ...]) -> None:
-    """Some epochs of clipped steps."""
-    known, done, chance, gains, values = samples
-    returns = gains + values
+def loss(policy, known, done, chance, gains, returns):
+    """The clipped objective, the error of the critic, and a little for chance."""
+    ratio = jnp.exp(log_chance(policy, known, done) - chance)
+    actor = -jnp.minimum(ratio * gains, jnp.clip(ratio, 1 - CLIP, 1 + CLIP) * gains).mean()
+    critic = ((forward(policy["critic"], known)[..., 0] - returns) ** 2).mean()
+    return actor + 0.5 * critic - ENTROPY * policy["spread"].sum()
+
+
+@partial(jax.jit, donate_argnums=(0, 1))
+def improve(policy, moments, samples):
+    """A step of Adam, with gradients of a norm of 0.5 at most."""
+    gradients = jax.grad(loss)(policy, *samples)
+    norm = jnp.sqrt(sum((each**2).sum() for each in jax.tree.leaves(gradients)))
+    gradients = jax.tree.map(lambda each: each * jnp.minimum(1.0, 0.5 / (norm + 1e-9)), gradients)
+    first, second, count = moments
+    first = jax.tree.map(lambda m, g: 0.9 * m + 0.1 * g, first, gradients)
+    second = jax.tree.map(lambda v, g: 0.999 * v + 0.001 * g**2, second, gradients)
+    count += 1
+    rate = RATE * jnp.sqrt(1 - 0.999**count) / (1 - 0.9**count)
+    policy = jax.tree.map(lambda p, m, v: p - rate * m / (jnp.sqrt(v) + 1e-8), policy, first, second)
+    return policy, (first, second, count)
+
+
+def learn(policy, moments, samples, rng):
+    """Some epochs over all samples, in batches."""
+    known, done, chance, gains, returns = samples
     gains = (gains - gains.mean()) / (gains.std() + 1e-8)
     for _ in range(EPOCHS):
-        for chosen in torch.randperm(len(known)).split(BATCH):
-            around = policy.around(known[chosen])
-            ratio = (around.log_prob(done[chosen]).sum(-1) - chance[chosen]).exp()
-            clipped = ratio.clamp(1 - CLIP, 1 + CLIP)
-            actor = -torch.min(ratio * gains[chosen], clipped * gains[chosen]).mean()
-            critic = (policy.worth(known[chosen]) - returns[chosen]).square().mean()
-            loss = actor + 0.5 * critic - ENTROPY * around.entropy().sum(-1).mean()
-            optimizer.zero_grad()
-            loss.backward()
-            nn.utils.clip_grad_norm_(policy.parameters(), 0.5)
-            optimizer.step()
+        for chosen in rng.permutation(len(known)).reshape(-1, BATCH):
+            batch = tuple(each[chosen] for each in (known, done, chance, gains, returns))
+            policy, moments = improve(policy, moments, batch)
+    return policy, moments
 
 
-def time_on_target(env: VectorEnv, policy: Policy, steps: int = 500) -> float:
-    """Mean over all swarms from a fresh seed, without noise."""
+def time_on_target(env, policy, steps=500):
+    """Mean over all swarms of a fresh seed, without noise."""
     env.reset(seed=1000)
-    seen, total = torch.from_dlpack(env.episodes.observations), 0.0
+    total, mean = 0.0, jax.jit(forward)
     for _ in range(steps):
-        with torch.no_grad():
-            env.step(policy.actor(seen).clamp(-1.0, 1.0).numpy())
+        env.step(np.clip(mean(policy["actor"], env.episodes.observations), -1.0, 1.0))
         total += env.episodes.terms[:, 0, 0].mean()
     return total / steps
 
 
-def main(seconds: float) -> None:
-    torch.manual_seed(1)
-    torch.set_num_threads(1)
+def main(seconds):
+    scenario = shoal.load("oceans2020", neighbors=8, steps=1000)
     reward = {"time_on_target": 0.2, "engaged": 1.0}
-    env = VectorEnv(
-        shoal.load("oceans2020", neighbors=8, steps=1000), SWARMS, observe=Observe(reports=8), reward=reward, copy=False
-    )
+    env = VectorEnv(scenario, SWARMS, observe=Observe(reports=8), reward=reward, copy=False)
     knows, does = env.single_observation_space.shape[1], env.single_action_space.shape[1]
-    policy = Policy(knows, does)
-    optimizer = torch.optim.Adam(policy.parameters(), RATE)
+    key, rng = jax.random.key(1), np.random.default_rng(1)
+    key, one, other = jax.random.split(key, 3)
+    policy = {
+        "actor": network(one, (knows, HIDDEN, HIDDEN, does)),
+        "critic": network(other, (knows, HIDDEN, HIDDEN, 1)),
+        "spread": jnp.full(does, -0.5),
+    }
+    moments = (jax.tree.map(jnp.zeros_like, policy), jax.tree.map(jnp.zeros_like, policy), jnp.array(0.0))
     print(f"untrained: {time_on_target(env, policy):.3f} of the time on target")
     env.reset(seed=1)
-    begun, rounds = time.monotonic(), 0
-    while time.monotonic() - begun < seconds:
-        learn(policy, optimizer, rollout(env, policy))
+    begun, rounds = time.process_time(), 0
+    while time.process_time() - begun < seconds:
+        key, each = jax.random.split(key)
+        policy, moments = learn(policy, moments, rollout(env, policy, each), rng)
         rounds += 1
-    samples = rounds * ROLLOUT * SWARMS * env.episodes.scenario.agents
+    samples = rounds * ROLLOUT * SWARMS * scenario.agents
     print(f"trained on {samples:,} steps of buoys: {time_on_target(env, policy):.3f}")
 
 

@@ -77,6 +77,10 @@ def test_defaults_are_found_wherever_on_a_line_they_stand(tmp_path):
 )
 def test_what_cannot_be_learned_or_written_is_refused(tmp_path, text, names, what):
     chosen = load("oceans2020", strategy=written(tmp_path, text))
+    owner = chosen.strategy.owner
+
+    def write():
+        rewritten(text, owner, "mine", weights := weights_of(chosen, names), [1.0] * len(weights))
+
     with pytest.raises(LearnError, match=what):
-        weights = weights_of(chosen, names)
-        rewritten(text, chosen.strategy.owner, "mine", weights, [1.0] * len(weights))
+        write()
