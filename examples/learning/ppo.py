@@ -50,7 +50,7 @@ def act(policy, known, key):
 
 
 def rollout(env, policy, key):
-    """What all buoys knew, did, how likely that was, how much better than thought it was, and its worth: (T E N, ...)."""
+    """What all buoys knew, did, how likely that was, how much better it was than thought, and its worth: (S, ...)."""
     episodes, rows = env.episodes, []
     for each in jax.random.split(key, ROLLOUT):
         known = episodes.observations.copy()
