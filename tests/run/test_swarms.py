@@ -110,8 +110,9 @@ def test_many_agents_whose_neighbors_are_in_lists_see_what_few_see():
     [
         ({"motion.update_order": "sequential"}, "one after the other"),
         ({"commands": [{"step": 5, "order": "hold"}]}, "an environment has none"),
+        ({"precision": "single"}, "double precision"),
     ],
 )
-def test_where_there_is_no_one_moment_to_decide_for_all_it_is_refused(changes, what):
+def test_what_an_environment_cannot_do_is_refused(changes, what):
     with pytest.raises(ScenarioError, match=what):
         episodes(scenario("oceans2020", changes))

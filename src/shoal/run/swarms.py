@@ -62,7 +62,8 @@ class Swarms:
 
     Raises
     ------
-    ScenarioError : agents decide one after the other, or are under commands: there is no one moment to decide for all
+    ScenarioError : agents decide one after the other, or are under commands: there is no one moment to decide for all;
+        or distances are in single precision
     """
 
     def __init__(
@@ -71,6 +72,8 @@ class Swarms:
         if scenario.motion.update_order == "sequential":
             problem = "is sequential: agents decide one after the other, on what the others have just done"
             raise ScenarioError("motion.update_order", problem, "an environment decides for all at once: synchronous")
+        if scenario.precision == "single":
+            raise ScenarioError("precision", "is single", "an environment has double precision: leave it out")
         if scenario.commands:
             raise ScenarioError("commands", "change what agents go by on the way", "an environment has none: drop them")
         self.scenario, self.crew = scenario, crew
