@@ -67,7 +67,7 @@ def test_an_interrupt_keeps_what_was_found(learned, tmp_path):
         (["linear", "--out", "nowhere/mine.py"], "there is no folder"),
         (["linear", "--budget", "3 m"], "--budget"),
         (["linear", "--budget", "0 s"], "give a time above 0"),
-        (["no-such-strategy"], "there are: "),
+        (["no-such-strategy"], "no strategy is called"),
         (["adrift"], "0 parameters that are numbers"),
         (["encircle", "--vary", "rin", "--vary", "push"], "did you mean 'ring'"),
     ],

@@ -45,7 +45,7 @@ def test_a_trial_has_other_weights_and_the_same_code():
 def test_the_text_of_a_built_in_strategy_becomes_one_of_its_own(tmp_path):
     owner, weights = ENCIRCLE.strategy.owner, weights_of(ENCIRCLE)
     values = [weight.start * 0.9 for weight in weights]
-    file = written(tmp_path, rewritten(source_text(owner), owner, "my-ring", weights, values))
+    file = written(tmp_path, rewritten(source_text(ENCIRCLE.strategy), owner, "my-ring", weights, values))
     mine = load("oceans2020", strategy=file).strategy
     assert mine.name == "my-ring"
     assert [mine.params[weight.name] for weight in weights] == values
@@ -60,7 +60,7 @@ def test_a_default_that_follows_the_scenario_is_said_for_the_paper_s():
 
 def test_defaults_are_found_wherever_on_a_line_they_stand(tmp_path):
     chosen = load("oceans2020", strategy=written(tmp_path, TWO.replace("'två'.replace('å', 'a') if 0 else ", "")))
-    text = source_text(chosen.strategy.owner)
+    text = source_text(chosen.strategy)
     changed = rewritten(text, chosen.strategy.owner, "other", weights_of(chosen), [0.25, 4.0])
     assert "é: float = 0.25; gain: float = (\n        4.0  # why" in changed
     assert '@shoal.strategy("other"' in changed

@@ -101,7 +101,7 @@ def train(
     name = _checked_name(out)
     check_file(out)
     with _started(strategy, scenario, name) as chosen:
-        owner, weights, text = chosen.strategy.owner, weights_of(chosen, terms.vary), source_text(chosen.strategy.owner)
+        owner, weights, text = chosen.strategy.owner, weights_of(chosen, terms.vary), source_text(chosen.strategy)
         first = np.array([weight.start for weight in weights])
         rewritten(text, owner, name, weights, first)  # before the work whose result it will hold
         Simulation(chosen)  # compiles

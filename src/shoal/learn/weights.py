@@ -122,17 +122,18 @@ def _names_strategy(call: ast.Call, name: str) -> bool:
     return named and ast.unparse(call.func).split(".")[-1] == "strategy"
 
 
-def source_text(owner: Any) -> str:
-    """The text of the file that defines a strategy.
+def source_text(choice: StrategyChoice) -> str:
+    """The text of the file that defines a strategy: the one named, for files of the same text are loaded once.
 
     Raises
     ------
     LearnError : there is no such file, as of a notebook's cell
     """
+    file = choice.file or choice.owner.source
     try:
-        return Path(owner.source).read_text(encoding="utf-8")
+        return Path(file).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise LearnError(owner.source, f"cannot be read: {error}", "write the strategy into a file") from None
+        raise LearnError(file, f"cannot be read: {error}", "write the strategy into a file") from None
 
 
 def _replaced(text: str, places: list[tuple[ast.expr, str]]) -> str:
