@@ -99,7 +99,7 @@ def test_the_code_of_the_page_on_learning_runs():
 def test_the_example_that_evolves_gains(tmp_path):
     pytest.importorskip("gymnasium", reason="environments need pip install '.[rl]'")
     script = ROOT / "examples/learning/evolve.py"
-    done = subprocess.run([sys.executable, script, "8"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, script, "15"], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     before, after = map(float, re.findall(r"([\d.]+) (?:before|after)", done.stdout))
     assert after > before

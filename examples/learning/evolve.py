@@ -1,4 +1,4 @@
-"""Evolve a policy on 8 swarms at a time, each with weights of its own, by the environment alone: no gradients.
+"""Evolve a policy on 16 swarms at a time, each with weights of its own, by the environment alone: no gradients.
 
     python examples/learning/evolve.py [generations]
 
@@ -12,7 +12,7 @@ import numpy as np
 import shoal
 from shoal.learn.env import Act, Observe, VectorEnv
 
-SWARMS, PARENTS, STEPS = 8, 3, 600
+SWARMS, PARENTS, STEPS, SPREAD = 16, 4, 1000, 0.2
 
 
 def actions(weights, observations):
@@ -20,14 +20,19 @@ def actions(weights, observations):
     return np.tanh(np.einsum("enf,efa->ena", observations, weights[:, :-1]) + weights[:, None, -1])
 
 
-def scores(env, weights, seed):
+def scores(env, weights, seeds):
     """Time on target of each swarm, (E,)."""
-    observations, _ = env.reset(seed=[seed] * SWARMS)  # the same chance for all
+    observations, _ = env.reset(seed=seeds)
     total = np.zeros(SWARMS)
     for _ in range(STEPS):
         observations, rewards, *_ = env.step(actions(weights, observations))
         total += rewards
     return total / STEPS
+
+
+def fresh(env, weights):
+    """The mean over swarms that all have these weights, each with chance of its own, which no generation had."""
+    return scores(env, np.tile(weights, (SWARMS, 1, 1)), 7).mean()
 
 
 def main(generations):
@@ -37,13 +42,13 @@ def main(generations):
     rng = np.random.default_rng(1)
     center = np.zeros((env.single_observation_space.shape[1] + 1, 2))
     for generation in range(generations):
-        tried = center + 0.5 * rng.standard_normal((SWARMS, *center.shape))
-        found = scores(env, tried, seed=100 + generation)
+        tried = center + SPREAD * rng.standard_normal((SWARMS, *center.shape))
+        found = scores(env, tried, [100 + generation] * SWARMS)  # the same chance for all
         center = tried[np.argsort(-found)[:PARENTS]].mean(axis=0)
         print(f"generation {generation}: {found.mean():.3f} of the time on target, the best {found.max():.3f}")
-    before, after = (scores(env, np.tile(each, (SWARMS, 1, 1)), 7)[0] for each in (0 * center, center))
+    before, after = (fresh(env, each) for each in (0 * center, center))
     print(f"a fresh seed: {before:.3f} before, {after:.3f} after")
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 10)
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 15)
