@@ -78,6 +78,11 @@ def valid_table(rng, strategies):
             table.setdefault("losses", []).append(loss)
         if left == 0:
             break
+    together = table.get("motion", {}).get("update_order") != "sequential" and not {"max_age", "hops"} & {
+        *table["network"]
+    }
+    if strategies == ["knn-pso"] and together:  # what is compiled for it is compiled once
+        maybe(rng, table, chance=0.5, precision=lambda: "single")
     return table
 
 
@@ -224,7 +229,10 @@ def _is_free(path):
 def _wrong_type(rng, table):
     if rng.random() < 0.3:
         return _replace(
-            rng, table, lambda path, value: isinstance(value, str) and value[-3:] != " kn", [3, 1.5, True, [], {"a": 1}]
+            rng,
+            table,
+            lambda path, value: isinstance(value, str) and value[-3:] != " kn" and path[-1] != "neighbors",
+            [3, 1.5, True, [], {"a": 1}],
         )
     return _replace(rng, table, lambda path, value: _is_number(value), ["text", "", True, [], [1.0], {"a": 1}])
 
@@ -271,7 +279,7 @@ def _unknown_field(rng, table):
 def _missing(rng, table):
     needed = {"name", "count", "max_speed", "width", "height", "step", "kind", "radius", "speed", "waypoint_reach"}
     needed |= {"shortest", "longest", "sight", "wall_sight", "surface_time", "dive_time", "time_step", "steps"}
-    paths = [path for path, _ in _leaves(table) if path[-1] in needed]
+    paths = [path for path, _ in _leaves(table) if path[-1] in needed and "strategy" not in path[:-1]]
     paths += [("area",), ("fleets",), ("network",), ("strategy",), ("targets",), ("network", "neighbors")]
     path = _pick(rng, [each for each in paths if not (each[-1] == "speed" and _part(table, each)["kind"] == "drift")])
     del _part(table, path)[path[-1]]

@@ -56,7 +56,7 @@ def test_an_interrupt_keeps_what_was_found(learned, tmp_path):
     with pytest.raises(KeyboardInterrupt):
         train(str(learned.file), "oceans2020", file, terms=QUICK, report=stop)
     assert scenario("oceans2020", {"strategy": {"file": str(file)}}).strategy.name == "stopped"
-    assert [each.name for each in tmp_path.iterdir()] == ["stopped.py"]
+    assert [each.name for each in tmp_path.glob("*.*")] == ["stopped.py"]
 
 
 @pytest.mark.parametrize(

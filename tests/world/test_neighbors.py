@@ -149,7 +149,7 @@ class TestRanks:
     @given(swarm=swarms(), reach=st.sampled_from([0.0, 1.0, 30.0, 1e9]))
     @settings(max_examples=200)
     def test_are_places_in_the_sorted_list_of_those_heard(self, swarm, reach):
-        x, y, _ = swarm
+        x, y = map(np.ascontiguousarray, swarm[:2])
         agents = len(x)
         links = new_links(agents, agents, ranked=True)
         measure_distances(links, x, y, x, y, 0, agents)

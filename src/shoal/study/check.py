@@ -2,7 +2,6 @@
 
 from typing import Any
 
-from shoal.metrics.chosen import check_metrics
 from shoal.scenario.assumptions import assumptions
 from shoal.scenario.at_sea import open_sea
 from shoal.scenario.crew import crew_of
@@ -28,7 +27,10 @@ def check(scenario: Source, *, trials: bool = False, **changes: Any) -> list[str
     ScenarioError, TrackError, StrategyError : it cannot run: where, why, and how to fix it
     """
     known = load(scenario, **changes)
-    check_metrics(known.metrics)
+    if known.metrics:
+        from shoal.metrics.chosen import check_metrics  # which imports all metrics, those of packages too
+
+        check_metrics(known.metrics)
     crew_of(known)
     opened = open_sea(known)
     notes = [*assumptions(known), *(opened.notes if opened else ())]
