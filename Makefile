@@ -3,9 +3,11 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 MINUTES ?= 60
+RELEASE := .release
+NEW_ENOUGH = $(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "Shoal needs Python 3.11 or newer: make PYTHON=python3.12 ..." >&2; exit 2; }
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
-.PHONY: demo test test-fast lint bench bench-peers arena soak notebook web clean help
+.PHONY: demo test test-fast lint bench bench-peers arena soak notebook web licenses dist dist-check clean help
 
 help:
 	@echo "make demo      run the paper's scenario: table, figure and record in demo-output/"
@@ -18,11 +20,14 @@ help:
 	@echo "make soak      fleets under a seeded adversary on all cores for MINUTES=60; ends with the seed of the first failure"
 	@echo "make notebook  the notebook of the docs anew, as results change"
 	@echo "make web       the viewer's page from its sources (needs npm; users do not)"
+	@echo "make licenses  the table of THIRD_PARTY.md anew, from what is installed"
+	@echo "make dist      sdist and wheel in dist/; BASE=https://.../blob/main makes the links of README absolute"
+	@echo "make dist-check installs that wheel alone and runs it, under each Python that is here"
 	@echo "make clean     remove the environment and everything made"
 
 # The environment is remade when what it holds changes.
 $(VENV)/.installed: pyproject.toml
-	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "Shoal needs Python 3.11 or newer: make PYTHON=python3.12 ..." >&2; exit 2; }
+	@$(NEW_ENOUGH)
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --editable '.[dev]'
 	@touch $@
@@ -64,5 +69,20 @@ notebook: $(VENV)/.installed
 web:
 	cd web && npm ci --no-audit --no-fund && npm test && npm run build
 
+licenses: $(VENV)/.installed
+	$(BIN)/python release/licenses.py
+
+$(RELEASE)/.installed:
+	@$(NEW_ENOUGH)
+	$(PYTHON) -m venv $(RELEASE)
+	$(RELEASE)/bin/python -m pip install --quiet 'build>=1.2' 'twine>=6.1'
+	@touch $@
+
+dist: $(RELEASE)/.installed
+	@$(RELEASE)/bin/python release/build_dist.py $(if $(BASE),--base '$(BASE)')
+
+dist-check: $(RELEASE)/.installed
+	@$(RELEASE)/bin/python release/try_wheel.py
+
 clean:
-	rm -rf $(VENV) .peers demo-output arena-output .pytest_cache .mypy_cache .ruff_cache .import_linter_cache
+	rm -rf $(VENV) $(RELEASE) dist .peers demo-output arena-output .pytest_cache .mypy_cache .ruff_cache .import_linter_cache

@@ -5,7 +5,10 @@ from pathlib import Path
 
 import pytest
 
+import shoal
+
 ROOT = Path(__file__).resolve().parents[1]
+FROM_INDEX = re.compile(r"install\s+(-\S+\s+)*['\"]?shoal\b")
 TEXTS = [
     *ROOT.glob("*.md"),
     *(file for folder in ("docs", "src", "examples", "web/src") for file in (ROOT / folder).rglob("*")
@@ -16,7 +19,17 @@ TEXTS = [
 @pytest.mark.parametrize("file", TEXTS, ids=lambda file: str(file.relative_to(ROOT)))
 def test_nobody_is_told_to_install_from_an_index_that_has_no_shoal(file):
     told = re.findall(r"pip install [^\n`]*", file.read_text(encoding="utf-8"))
-    assert not [each for each in told if re.search(r"install\s+['\"]?shoal\b", each)]
+    assert not [each for each in told if FROM_INDEX.search(each)]
+
+
+def test_installing_from_an_index_is_seen_behind_options_and_with_extras():
+    assert FROM_INDEX.search("pip install --no-deps -U 'shoal[plots]'")
+    assert not FROM_INDEX.search("pip install --no-deps dist/shoal-0.1.0-py3-none-any.whl")
+
+
+def test_wheels_in_the_docs_are_of_this_version():
+    texts = [file.read_text(encoding="utf-8") for file in TEXTS]
+    assert {name for text in texts for name in re.findall(r"shoal-([^-\s]+)-py3-none", text)} == {shoal.__version__}
 
 
 def test_the_first_page_says_what_there_is_and_how_large_it_is():
