@@ -41,4 +41,4 @@ class TestLinks:
         assert not broken
 
     def test_are_found(self):
-        assert len(links(ROOT / "README.md")) > 5
+        assert len(links(ROOT / "docs/reference/cli.md")) > 5  # those of README may be absolute: `make dist`
