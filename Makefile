@@ -7,7 +7,7 @@ RELEASE := .release
 NEW_ENOUGH = $(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "Shoal needs Python 3.11 or newer: make PYTHON=python3.12 ..." >&2; exit 2; }
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
-.PHONY: demo test test-fast lint bench bench-peers arena soak notebook web licenses dist dist-check clean help
+.PHONY: demo test test-fast lint bench bench-peers arena soak notebook docs docs-open web licenses dist dist-check clean help
 
 help:
 	@echo "make demo      run the paper's scenario: table, figure and record in demo-output/"
@@ -19,6 +19,8 @@ help:
 	@echo "make arena     the leaderboard of docs/reference/arena.md anew, about ten minutes"
 	@echo "make soak      fleets under a seeded adversary on all cores for MINUTES=60; ends with the seed of the first failure"
 	@echo "make notebook  the notebook of the docs anew, as results change"
+	@echo "make docs      the docs as a site in site/, with search; installs zensical into .docs/; a warning or a dead link is an error"
+	@echo "make docs-open every page of it in a browser without a network (needs chromium)"
 	@echo "make web       the viewer's page from its sources (needs npm; users do not)"
 	@echo "make licenses  the table of THIRD_PARTY.md anew, from what is installed"
 	@echo "make dist      sdist and wheel in dist/; BASE=https://.../blob/main makes the links of README absolute"
@@ -66,6 +68,21 @@ notebook: $(VENV)/.installed
 	$(BIN)/python -m pip install --quiet nbconvert ipykernel
 	$(BIN)/python -m nbconvert --to notebook --execute --inplace --ExecutePreprocessor.record_timing=False docs/tutorials/*.ipynb
 
+# The site has an environment of its own: it reads Shoal's sources, and needs nothing that Shoal needs.
+DOCS := .docs
+$(DOCS)/.installed: docs/tools/requirements.txt
+	$(PYTHON) -m venv $(DOCS)
+	$(DOCS)/bin/python -m pip install --quiet --requirement docs/tools/requirements.txt
+	@touch $@
+
+docs: $(DOCS)/.installed
+	$(DOCS)/bin/python docs/tools/stage_site.py build/site
+	$(DOCS)/bin/zensical build --clean --strict
+	$(DOCS)/bin/python docs/tools/dead_links.py site
+
+docs-open: docs $(VENV)/.installed
+	$(BIN)/python docs/tools/open_site.py site
+
 web:
 	cd web && npm ci --no-audit --no-fund && npm test && npm run build
 
@@ -85,4 +102,4 @@ dist-check: $(RELEASE)/.installed
 	@$(RELEASE)/bin/python release/try_wheel.py
 
 clean:
-	rm -rf $(VENV) $(RELEASE) dist .peers demo-output arena-output .pytest_cache .mypy_cache .ruff_cache .import_linter_cache
+	rm -rf $(VENV) $(RELEASE) $(DOCS) dist .peers site demo-output arena-output .pytest_cache .mypy_cache .ruff_cache .import_linter_cache
