@@ -8,7 +8,7 @@ from shoal.compiler.lanes import WIDTH, everywhere, narrow, put, take
 from shoal.core.messages import Briefing, Own, Report, Truth
 from shoal.scenario.crew import crew_of
 from shoal.scenario.load import load
-from shoal.strategies import CATALOGUE, contract
+from shoal.strategies import CATALOGUE, asking
 
 WITH_INFLUENCE = sorted(name for name, known in CATALOGUE.items() if known.builtin and known.influence)
 AWAY = np.concatenate([[0.0], 10.0 ** np.linspace(-9, 6, 31)])
@@ -24,10 +24,10 @@ def influences(away, params, told, out):
         none = everywhere(0.0)
         x, one = take(away, i, none), none + 1.0
         me = Own(1, x, none, none, none, none > one, one, 0.1, 0.0, 0, briefing, truth, 0.0, 0.0, False)
-        put(out[0], (0, i), contract.influence(me, other, params)[0] + none)
+        put(out[0], (0, i), asking.influence(me, other, params)[0] + none)
         short, short_one, short_x = narrow(none), narrow(one), narrow(x)
         me = Own(1, short_x, short, short, short, none > one, short_one, 0.1, 0.0, 0, briefing, truth, 0.0, 0.0, False)
-        put(out[1], (0, i), contract.influence(me, other, params)[0] + short)
+        put(out[1], (0, i), asking.influence(me, other, params)[0] + short)
 
 
 def in_both(name, **changes):

@@ -13,7 +13,7 @@ from shoal.core.draws import START_STEP, split
 from shoal.core.messages import Briefing, Heard, Own, Reading, Report, Truth
 from shoal.core.wire import told_class
 from shoal.scenario.crew import Crew
-from shoal.strategies import contract
+from shoal.strategies import asking
 
 NO_BRIEFING = Briefing(0, 0.0, 0.0, 0.0, 0.0, 0.0)
 NO_TRUTH = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -43,7 +43,7 @@ class PlainMind:
 
     def begin(self, me: Own) -> None:
         """Set the memory up."""
-        contract.begin(me, self.memory, self.crew.params, split(split(self._key, START_STEP), me.id))
+        asking.begin(me, self.memory, self.crew.params, split(split(self._key, START_STEP), me.id))
 
     def decide(self, me: Own, inbox: list[Report], step: int) -> tuple[float, float]:
         """The velocity wanted in a step [m/s]; `inbox` has the reports heard in the order of ids."""
@@ -52,20 +52,20 @@ class PlainMind:
             briefing=NO_BRIEFING, truth=NO_TRUTH, drift_x=0.0, drift_y=0.0, aground=False
         )
         sums, leader, lowest = [0.0] * self.crew.sums, None, math.inf
-        sums_up = contract.has_influence(params)
+        sums_up = asking.has_influence(params)
         for other in inbox:
             if sums_up:
-                for number, value in enumerate(contract.influence(listener, other, params)):
+                for number, value in enumerate(asking.influence(listener, other, params)):
                     sums[number] += value
-            if contract.leads(other, params):
-                priority = contract.priority(listener, other, params)
+            if asking.leads(other, params):
+                priority = asking.priority(listener, other, params)
                 if priority < lowest:
                     leader, lowest = other, priority
         found = leader is not None
         said: Any = leader or me
         told = leader.told if leader else self.told()
         heard = Heard(found, said.x, said.y, said.vx, said.vy, said.on_target, 0.0, 0.0, len(inbox), told, tuple(sums))
-        vx, vy = contract.decide(me, heard, self.memory, params, split(split(self._key, step), me.id))
+        vx, vy = asking.decide(me, heard, self.memory, params, split(split(self._key, step), me.id))
         return float(vx), float(vy)
 
 

@@ -5,7 +5,7 @@ Without numba, on the small computer of a buoy, kernels are the plain functions 
 A cache of compiled code does not notice an edited function in another file, and would return old numbers silently, so
 ours (cache.py) lives in a folder named by a hash of all our kernel sources (docs/decisions/0002-kernel-cache.md).
 
-A trap: in a kernel that calls an overload with inline="always" (`part`, `enter`, all of strategies/contract.py),
+A trap: in a kernel that calls an overload with inline="always" (`part`, `enter`, all of strategies/asking.py),
 numba removes writes into arrays that it does not see to be an argument's. It sees one dot, `swarm.x[i] = 1.0`, but
 neither two, `parts.swarm.x[i] = 1.0`, nor what `part` returned: such a kernel hands the swarm to one that writes.
 """

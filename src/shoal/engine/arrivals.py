@@ -1,7 +1,7 @@
 """The reports that arrive in a step, for whoever listens: one of each speaker for all, or one for each pair (kept.py).
 Where there are many, listeners go by lists (listed.py).
 
-Which it is decides the type of `memories`, as that of params decides the strategy (strategies/contract.py): numba then
+Which it is decides the type of `memories`, as that of params decides the strategy (strategies/asking.py): numba then
 compiles one of both, and nothing is asked while a run goes.
 """
 
@@ -52,28 +52,15 @@ def _arrived(memories, radio, swarm, number, time_step):
     return Arrived(said(radio, swarm, number), told, then * time_step)
 
 
-@kernel
-def _in_turn(memories, radio, swarm, number, time_step):
-    arrived = _arrived(memories, radio, swarm, number, time_step)
-    return InTurn(arrived.said, arrived.told, arrived.at)
+def _arrived_as(kind):
+    """The same as another class, by which numba compiles another way to listen."""
 
+    @kernel
+    def arrived_so(memories, radio, swarm, number, time_step):
+        arrived = _arrived(memories, radio, swarm, number, time_step)
+        return kind(arrived.said, arrived.told, arrived.at)
 
-@kernel
-def _single(memories, radio, swarm, number, time_step):
-    arrived = _arrived(memories, radio, swarm, number, time_step)
-    return Single(arrived.said, arrived.told, arrived.at)
-
-
-@kernel
-def _single_listed(memories, radio, swarm, number, time_step):
-    arrived = _arrived(memories, radio, swarm, number, time_step)
-    return SingleListed(arrived.said, arrived.told, arrived.at)
-
-
-@kernel
-def _listed(memories, radio, swarm, number, time_step):
-    arrived = _arrived(memories, radio, swarm, number, time_step)
-    return Listed(arrived.said, arrived.told, arrived.at)
+    return arrived_so
 
 
 @kernel
@@ -83,11 +70,11 @@ def _kept(memories, radio, swarm, number, time_step):
 
 _ARRIVING: dict[Any, Any] = {
     Memories: _arrived,
-    TurnMemories: _in_turn,
-    SingleMemories: _single,
+    TurnMemories: _arrived_as(InTurn),
+    SingleMemories: _arrived_as(Single),
     KeptMemories: _kept,
-    ListedMemories: _listed,
-    SingleListedMemories: _single_listed,
+    ListedMemories: _arrived_as(Listed),
+    SingleListedMemories: _arrived_as(SingleListed),
 }
 _SUMMING: dict[Any, Any] = {
     Arrived: sum_influence,

@@ -11,7 +11,7 @@ import numpy as np
 from shoal.compiler.kernel import kernel
 from shoal.core.messages import Report
 from shoal.engine.listen import listener
-from shoal.strategies import contract
+from shoal.strategies import asking
 from shoal.world.neighbors import within
 from shoal.world.radio import row
 
@@ -48,10 +48,10 @@ def choose_kept_leaders(kept, listeners, links, params, agents, leader, lowest):
                 at = row_of(kept, j, i)
                 x, y, vx, vy, on_target = air.x[at, j], air.y[at, j], air.vx[at, j], air.vy[at, j], air.on_target[at, j]
                 time = air.heard[j, i] * kept.time_step
-                if contract.leads(Report(j, x, y, vx, vy, on_target, told[at, j], time, None), params):
-                    rank = contract.rank_of(links.rank, j, i, params)
+                if asking.leads(Report(j, x, y, vx, vy, on_target, told[at, j], time, None), params):
+                    rank = asking.rank_of(links.rank, j, i, params)
                     other = Report(j, x, y, vx, vy, on_target, told[at, j], time, rank)
-                    priority = contract.priority(me, other, params)
+                    priority = asking.priority(me, other, params)
                     if priority < lowest[i]:
                         lowest[i] = priority
                         leader[i] = j
@@ -62,16 +62,16 @@ def sum_kept_influence(kept, listeners, links, params, agents, sums):
     """Add up what the neighbors of each listener exert on it, (S, L), and count them in links.heard."""
     air, told, heard = kept.radio, kept.told, links.heard
     for i in range(listeners.x.size):
-        contract.clear(sums, i, params)
+        asking.clear(sums, i, params)
         heard[i] = 0
         me = listener(listeners, i)
         for j in range(agents):
             if within(links, j, i):
                 heard[i] += 1
-                if contract.has_influence(params):
+                if asking.has_influence(params):
                     at = row_of(kept, j, i)
-                    rank = contract.rank_of(links.rank, j, i, params)
+                    rank = asking.rank_of(links.rank, j, i, params)
                     time = air.heard[j, i] * kept.time_step
                     x, y, vx, vy = air.x[at, j], air.y[at, j], air.vx[at, j], air.vy[at, j]
                     other = Report(j, x, y, vx, vy, air.on_target[at, j], told[at, j], time, rank)
-                    contract.add(sums, i, contract.influence(me, other, params), True)
+                    asking.add(sums, i, asking.influence(me, other, params), True)

@@ -12,7 +12,7 @@ from shoal.compiler.kernel import kernel
 from shoal.compiler.lanes import everywhere, gather, mask_of, narrow, take
 from shoal.core.messages import Briefing, Own, Report, Truth
 from shoal.engine.listen import listener_at
-from shoal.strategies import contract
+from shoal.strategies import asking
 from shoal.world.lists import LANES, note_leader
 
 
@@ -48,15 +48,15 @@ def _sum_by_lanes(arrived, listeners, links, params, agents, sums, none):
     block = np.empty((sums.shape[0], LANES))
     for number in range(lists.begins.size - 1):
         p = number * LANES
-        me, totals = listeners_at(listeners, lists.cells, p, none), contract.no_sums(none, params)
+        me, totals = listeners_at(listeners, lists.cells, p, none), asking.no_sums(none, params)
         for c in range(lists.begins[number], lists.begins[number + 1]):
             q = lists.near[c]
             j = order[q]
             x, y = lists.cells.x[q], lists.cells.y[q]
-            rank = contract.ranks_of(lists.rank, c, 0, params)
+            rank = asking.ranks_of(lists.rank, c, 0, params)
             other = Report(j, x, y, said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
-            totals = contract.added(totals, contract.influence(me, other, params), mask_of(lists.hears[c]))
-        contract.put_sums(block, 0, totals)
+            totals = asking.added(totals, asking.influence(me, other, params), mask_of(lists.hears[c]))
+        asking.put_sums(block, 0, totals)
         _hand_out(block, order, p, sums, agents)
 
 
@@ -102,16 +102,16 @@ def sum_listed_influence(arrived, listeners, links, params, agents, sums):
     for number in range(lists.begins.size - 1):
         p = number * LANES
         for lane in range(LANES):
-            contract.clear(block, lane, params)
+            asking.clear(block, lane, params)
         for c in range(lists.begins[number], lists.begins[number + 1]):
             q = lists.near[c]
             j = order[q]
             for lane in range(LANES):
                 me = listener_at(listeners, order[p + lane], cells.own_x[p + lane], cells.own_y[p + lane])
-                rank = contract.rank_of(lists.rank, c, lane, params)
+                rank = asking.rank_of(lists.rank, c, lane, params)
                 other = Report(j, cells.x[q], cells.y[q], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
-                pushed = contract.influence(me, other, params)
-                contract.add(block, lane, pushed, (lists.hears[c] >> lane) & 1 != 0)
+                pushed = asking.influence(me, other, params)
+                asking.add(block, lane, pushed, (lists.hears[c] >> lane) & 1 != 0)
         _hand_out(block, order, p, sums, agents)
 
 
@@ -125,7 +125,7 @@ def choose_listed_leaders(arrived, listeners, links, params, agents, leader, low
         leader[j] = -1
         lowest[j] = np.inf
         other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, None)
-        leads = contract.leads(other, params)
+        leads = asking.leads(other, params)
         note_leader(lists, j, leads)
         anybody |= leads
     for number in range(lists.begins.size - 1 if anybody else 0):
@@ -138,11 +138,11 @@ def choose_listed_leaders(arrived, listeners, links, params, agents, leader, low
                     if (lists.hears[c] >> lane) & 1 != 0:
                         i = order[p + lane]
                         me = listener_at(listeners, i, cells.own_x[p + lane], cells.own_y[p + lane])
-                        rank = contract.rank_of(lists.rank, c, lane, params)
+                        rank = asking.rank_of(lists.rank, c, lane, params)
                         other = Report(
                             j, cells.x[q], cells.y[q], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank
                         )
-                        priority = contract.priority(me, other, params)
+                        priority = asking.priority(me, other, params)
                         if priority < lowest[i]:
                             lowest[i] = priority
                             leader[i] = j

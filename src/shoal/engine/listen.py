@@ -7,7 +7,7 @@ import numpy as np
 from shoal.compiler.kernel import kernel
 from shoal.compiler.lanes import WIDTH, counting, either, everywhere, put, take
 from shoal.core.messages import Briefing, Own, Report, Truth
-from shoal.strategies import contract
+from shoal.strategies import asking
 from shoal.world.neighbors import as_single, within, zero_of
 
 
@@ -54,12 +54,12 @@ def choose_leaders(arrived, listeners, links, params, agents, leader, lowest):
         lowest[i] = np.inf
     for j in range(agents):
         other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, None)
-        if contract.leads(other, params):
+        if asking.leads(other, params):
             for i in range(lanes):
                 me = listener(listeners, i)
-                rank = contract.rank_of(links.rank, j, i, params)
+                rank = asking.rank_of(links.rank, j, i, params)
                 other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
-                priority = contract.priority(me, other, params)
+                priority = asking.priority(me, other, params)
                 better = within(links, j, i) and priority < lowest[i]
                 lowest[i] = priority if better else lowest[i]
                 leader[i] = j if better else leader[i]
@@ -75,15 +75,15 @@ def sum_by_lanes(arrived, listeners, links, params, agents, sums):
     none = everywhere(zero_of(links))
     for i in range(0, listeners.x.size, WIDTH):
         me = listeners_from(listeners, i, none)
-        reach, heard, totals = take(links.reach, i, none), none, contract.no_sums(none, params)
+        reach, heard, totals = take(links.reach, i, none), none, asking.no_sums(none, params)
         for j in range(agents):
-            rank = contract.ranks_of(links.rank, j, i, params)
+            rank = asking.ranks_of(links.rank, j, i, params)
             other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
             hears = take(square, (j, i), none) <= reach
             heard = either(hears, heard + 1.0, heard)
-            totals = contract.added(totals, contract.influence(me, other, params), hears)
+            totals = asking.added(totals, asking.influence(me, other, params), hears)
         put(links.heard, i, heard)
-        contract.put_sums(sums, i, totals)
+        asking.put_sums(sums, i, totals)
 
 
 @kernel
@@ -91,17 +91,17 @@ def sum_influence(arrived, listeners, links, params, agents, sums):
     """The same for any number of listeners, and for influences with branches: lanes of inner loops."""
     lanes, heard, said, told, at = listeners.x.size, links.heard, arrived.said, arrived.told, arrived.at
     for i in range(lanes):
-        contract.clear(sums, i, params)
+        asking.clear(sums, i, params)
         heard[i] = 0
     for j in range(agents):
-        if contract.has_influence(params):
+        if asking.has_influence(params):
             for i in range(lanes):
                 me = listener(listeners, i)
-                rank = contract.rank_of(links.rank, j, i, params)
+                rank = asking.rank_of(links.rank, j, i, params)
                 other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, rank)
-                pushed = contract.influence(me, other, params)
+                pushed = asking.influence(me, other, params)
                 heard_now = within(links, j, i)
-                contract.add(sums, i, pushed, heard_now)
+                asking.add(sums, i, pushed, heard_now)
                 heard[i] += 1 if heard_now else 0
         else:
             for i in range(lanes):

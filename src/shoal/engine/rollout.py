@@ -12,7 +12,7 @@ from shoal.core.draws import START_STEP, TARGET_STREAM, split
 from shoal.engine.self import own
 from shoal.engine.stage import FRAMES, PHASES, RADIO, RUN, SCRATCH, SEA, SWARM, TALLY, TARGETS, TRACKS, WORLD
 from shoal.engine.step import Now, Parts, step, tell
-from shoal.strategies import contract
+from shoal.strategies import asking
 from shoal.world.placement import draw_sides, place
 from shoal.world.position import begin_errors, locate
 from shoal.world.presence import draw_lifetimes, draw_losses, lose, update_presence
@@ -70,7 +70,7 @@ def begin_run(stage, memories, params):
     start_key = split(split(split(run.seed, 0), run.run), START_STEP)
     for i in range(world.agents):
         me = own(world, swarm, targets, params, 0, i)
-        contract.begin(me, memories.memory[i], params, split(start_key, i))
+        asking.begin(me, memories.memory[i], params, split(start_key, i))
     tell(swarm, 0, world.agents)
 
 

@@ -2,7 +2,7 @@
 
 from shoal.compiler.kernel import kernel
 from shoal.core.messages import Briefing, Own, Truth
-from shoal.strategies import contract
+from shoal.strategies import asking
 from shoal.world.targets.dispatch import heading_to
 
 
@@ -43,7 +43,7 @@ def own(world, swarm, targets, params, number, i):
 def _truth(x, y, targets, params):
     """The nearest target present, for references; nothing for the others."""
     truth = Truth(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    if contract.is_informed(params):
+    if asking.is_informed(params):
         nearest = 1e300
         for target in targets:
             dx = target.x - x

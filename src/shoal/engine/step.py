@@ -14,7 +14,7 @@ from shoal.engine.arrivals import arriving, choose, said_by, sum_up, told_by
 from shoal.engine.listen import Listeners
 from shoal.engine.self import own
 from shoal.engine.stage import Addresses, Scratch
-from shoal.strategies import contract
+from shoal.strategies import asking
 
 
 class Parts(NamedTuple):
@@ -127,7 +127,7 @@ def decide(swarm, parts, arrived, memories, params, now, first):
             told_by(arrived, j, lane),
             scratch.sums[:, lane],
         )
-        vx, vy = contract.decide(me, heard, memories.memory[i], params, split(now.key, i))
+        vx, vy = asking.decide(me, heard, memories.memory[i], params, split(now.key, i))
         swarm.command_x[i] = vx
         swarm.command_y[i] = vy
 

@@ -30,3 +30,7 @@ def compiled_first(execute: Executor, tell: Callable[[str], None]) -> Executor:
         yield from execute(wanted)
 
     return run
+
+
+def say_nothing(message: str) -> None:
+    """What a library is told, which never prints."""

@@ -4,13 +4,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from shoal.core.errors import MissingExtraError, UnknownNameError
+from shoal.core.errors import UnknownNameError
 from shoal.metrics.each_target import each_target
 from shoal.metrics.effort import fleet_power
 from shoal.metrics.energy import fleet_energy
 from shoal.metrics.heading_bearing import fleet_stationary
 from shoal.metrics.summary import METRICS
 from shoal.metrics.velocity_fluctuation import fleet_fluctuation
+from shoal.record.tables import data_frame
 from shoal.record.trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -31,11 +32,7 @@ def to_pandas(record: "Record", what: str) -> "pandas.DataFrame":
     """
     if what not in TABLES:
         raise UnknownNameError.of("table", what, TABLES)
-    try:
-        import pandas as pd
-    except ImportError:
-        raise MissingExtraError.of("pandas", "sweep", "a record as a DataFrame") from None
-    return pd.DataFrame(TABLES[what](record))
+    return data_frame(TABLES[what](record), "a record as a DataFrame")
 
 
 def _metrics(record: "Record") -> dict[str, Any]:

@@ -7,7 +7,7 @@ import numpy as np
 from shoal.compiler.kernel import entry_kernel, kernel
 from shoal.core.draws import START_STEP, split
 from shoal.core.messages import Briefing, Heard, Own, Report, Truth
-from shoal.strategies import contract
+from shoal.strategies import asking
 
 
 class Inbox(NamedTuple):
@@ -39,7 +39,7 @@ def key_of_run(seed, run):
 def begin_one(place, selves, memory, params, key):
     """Set up the memory of the agent at a place; `key` is that of the run."""
     me = own_of(selves[place], 0)
-    contract.begin(me, memory[place], params, split(split(key, START_STEP), me.id))
+    asking.begin(me, memory[place], params, split(split(key, START_STEP), me.id))
 
 
 @entry_kernel
@@ -108,12 +108,12 @@ def _decide(me, inbox, near, memory, rows, params, when, sums):
             break
         count += 1
         x, y, vx, vy = inbox.numbers[j, 0], inbox.numbers[j, 1], inbox.numbers[j, 2], inbox.numbers[j, 3]
-        rank = contract.rank_of(near, n, 1, params)
+        rank = asking.rank_of(near, n, 1, params)
         other = Report(inbox.id[j], x, y, vx, vy, inbox.on_target[j], inbox.told[j], inbox.numbers[j, 4], rank)
-        if contract.has_influence(params):
-            contract.add(sums, 0, contract.influence(listener, other, params), True)
-        if contract.leads(other, params):
-            priority = contract.priority(listener, other, params)
+        if asking.has_influence(params):
+            asking.add(sums, 0, asking.influence(listener, other, params), True)
+        if asking.leads(other, params):
+            priority = asking.priority(listener, other, params)
             if priority < lowest:
                 leader = j
                 lowest = priority
@@ -129,7 +129,7 @@ def _decide(me, inbox, near, memory, rows, params, when, sums):
         on_target = inbox.on_target[leader]
     told = inbox.told[leader if found else rows[1]]
     heard = Heard(found, x, y, vx, vy, on_target, 0.0, 0.0, count, told, sums[:, 0])
-    return contract.decide(me, heard, memory[rows[0]], params, split(split(when[0], when[1]), me.id))
+    return asking.decide(me, heard, memory[rows[0]], params, split(split(when[0], when[1]), me.id))
 
 
 @kernel

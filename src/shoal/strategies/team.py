@@ -7,7 +7,7 @@ says; all remember in records that have the fields of every strategy.
 import math
 from typing import Any, NamedTuple
 
-from shoal.strategies import contract
+from shoal.strategies import asking, contract
 from shoal.strategies.contract import strategy
 
 MOST = 8  # strategies in one swarm
@@ -26,31 +26,31 @@ def _level() -> Any:
     def begin(me, memory, params, draw):
         """As the agent's own strategy begins."""
         if me.id < params.until:
-            contract.begin(me, memory, params.first, draw)
+            asking.begin(me, memory, params.first, draw)
         else:
-            contract.begin(me, memory, params.rest, draw)
+            asking.begin(me, memory, params.rest, draw)
 
     def leads(other, params):
         """Whoever may lead agents of either strategy."""
-        return contract.leads(other, params.first) or contract.leads(other, params.rest)
+        return asking.leads(other, params.first) or asking.leads(other, params.rest)
 
     def priority(me, other, params):
         """As the agent's own strategy ranks; those that it would not follow come last of all, at infinity."""
         if me.id < params.until:
-            return contract.priority(me, other, params.first) if contract.leads(other, params.first) else math.inf
-        return contract.priority(me, other, params.rest) if contract.leads(other, params.rest) else math.inf
+            return asking.priority(me, other, params.first) if asking.leads(other, params.first) else math.inf
+        return asking.priority(me, other, params.rest) if asking.leads(other, params.rest) else math.inf
 
     def influence(me, other, params):
         """As the agent's own strategy is influenced."""
         if me.id < params.until:
-            return contract.counted(contract.influence(me, other, params.first), params)
-        return contract.counted(contract.influence(me, other, params.rest), params)
+            return asking.counted(asking.influence(me, other, params.first), params)
+        return asking.counted(asking.influence(me, other, params.rest), params)
 
     def decide(me, heard, memory, params, draw):
         """Each fleet by its own strategy."""
         if me.id < params.until:
-            return contract.decide(me, heard, memory, params.first, draw)
-        return contract.decide(me, heard, memory, params.rest, draw)
+            return asking.decide(me, heard, memory, params.first, draw)
+        return asking.decide(me, heard, memory, params.rest, draw)
 
     strategy(contract.TEAM, params=Team, begin=begin, leads=leads, priority=priority, influence=influence)(decide)
     return Team

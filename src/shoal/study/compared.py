@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
-from shoal.core.errors import MissingExtraError, ScenarioError, UnknownNameError, did_you_mean
+from shoal.core.errors import ScenarioError, UnknownNameError, did_you_mean
 from shoal.core.keywords import lists_keywords, split_keywords
 from shoal.core.sheet import Sheet
 from shoal.experiments.cells import make_cells
@@ -19,7 +19,7 @@ from shoal.experiments.comparison_words import (
     rank_text,
     value_text,
 )
-from shoal.experiments.compiled_first import compiled_first
+from shoal.experiments.compiled_first import compiled_first, say_nothing
 from shoal.experiments.contenders import contenders, with_parameters
 from shoal.experiments.executors import Executor
 from shoal.experiments.on_card import executor_on
@@ -27,6 +27,7 @@ from shoal.experiments.rows import Row
 from shoal.experiments.run_comparison import comparison_design, run_comparison, values_of
 from shoal.experiments.sweep import Progress
 from shoal.metrics.summary import METRICS, bounds_of
+from shoal.record.tables import data_frame
 from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source
 from shoal.strategies.plugins import name_of
@@ -94,11 +95,7 @@ class Compared:
         tables = {"standings": self._standings, "runs": self._runs}
         if what not in tables:
             raise UnknownNameError.of("table", what, tables)
-        try:
-            import pandas as pd
-        except ImportError:
-            raise MissingExtraError.of("pandas", "sweep", "a comparison as a DataFrame") from None
-        return pd.DataFrame(tables[what]())
+        return data_frame(tables[what](), "a comparison as a DataFrame")
 
     def plot(self) -> "Figure":
         """Draw curves if one number varies, else bars: a panel per condition (extra: plots)."""
@@ -203,7 +200,7 @@ def compare(
         scenario,
         {name: written(value) for name, value in changes.items()},
         options,
-        executor=compiled_first(executor_on(options.device, options.jobs), _say_nothing),
+        executor=compiled_first(executor_on(options.device, options.jobs), say_nothing),
         report=progress_of(options.progress),
     )
 
@@ -290,7 +287,3 @@ def _numbers(each: Standing) -> dict[str, Any]:
 
 def _told(point: dict[str, Any]) -> str:
     return ", ".join(f"{name.replace('_', ' ')} {value}" for name, value in point.items())
-
-
-def _say_nothing(message: str) -> None:
-    """A library never prints."""

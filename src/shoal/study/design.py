@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from shoal.core.errors import ScenarioError
 from shoal.core.keywords import lists_keywords, split_keywords
-from shoal.experiments.compiled_first import compiled_first
+from shoal.experiments.compiled_first import compiled_first, say_nothing
 from shoal.experiments.executors import Executor
 from shoal.experiments.fleet_front import design_fleets
 from shoal.experiments.fleet_range import FleetRange, check_fleets, fleet_range, parse_fleet
@@ -75,7 +75,7 @@ def design(
         (_ranges(fleets), variables_of(vary or {})),
         {name: written(value) for name, value in changes.items()},
         options,
-        executor=compiled_first(executor_on(options.device, options.jobs), _say_nothing),
+        executor=compiled_first(executor_on(options.device, options.jobs), say_nothing),
         report=progress_of(options.progress),
     )
 
@@ -135,7 +135,3 @@ def _range(name: str, value: Any) -> FleetRange:
     if not (2 <= len(given) <= 3 and numbers and all(type(each) is int for each in given[:2])):
         raise ScenarioError(f"fleets {name}", f"is {value!r:.60}", "write (fewest, most, cost of one), or a count")
     return fleet_range(name, given[0], given[1], given[2] if len(given) == 3 else None, f"fleets {name}")
-
-
-def _say_nothing(message: str) -> None:
-    """A library never prints."""

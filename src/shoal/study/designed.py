@@ -4,11 +4,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from shoal.core.errors import MissingExtraError
 from shoal.core.sheet import MOST_ROWS, Sheet
 from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.fleet_front import Alternative, FleetFront
 from shoal.experiments.front import Spread
+from shoal.record.tables import data_frame
 from shoal.study.design_words import fleet_text, names_of, sentences, shortened, spread, standing
 from shoal.study.searching import shown
 
@@ -47,11 +47,7 @@ class Designed:
         ------
         MissingExtraError : pandas is not installed
         """
-        try:
-            import pandas as pd
-        except ImportError:
-            raise MissingExtraError.of("pandas", "sweep", "a design as a DataFrame") from None
-        return pd.DataFrame(self.rows())
+        return data_frame(self.rows(), "a design as a DataFrame")
 
     def rows(self) -> list[dict[str, Any]]:
         """What `to_pandas` makes a table of."""

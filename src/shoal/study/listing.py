@@ -3,9 +3,10 @@
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar, overload
 
-from shoal.core.errors import MissingExtraError, UnknownNameError
+from shoal.core.errors import UnknownNameError
 from shoal.core.sheet import Sheet
 from shoal.metrics.summary import METRICS
+from shoal.record.tables import data_frame
 from shoal.scenario.load import presets, raw_table
 from shoal.scenario.strategy_choice import params_model
 from shoal.strategies import CATALOGUE, Strategy
@@ -101,11 +102,7 @@ class Listing(Sequence[T], Generic[T]):
         ------
         MissingExtraError : pandas is not installed
         """
-        try:
-            import pandas as pd
-        except ImportError:
-            raise MissingExtraError.of("pandas", "sweep", "a list as a DataFrame") from None
-        return pd.DataFrame([each._asdict() for each in self._entries])
+        return data_frame([each._asdict() for each in self._entries], "a list as a DataFrame")
 
     def __repr__(self) -> str:
         return self._sheet().text()

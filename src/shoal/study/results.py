@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from shoal.core.errors import MissingExtraError
 from shoal.experiments.results import read_rows
+from shoal.record.tables import data_frame
 
 if TYPE_CHECKING:
     import pandas
@@ -18,9 +18,5 @@ def load_results(folder: str | Path) -> "pandas.DataFrame":
     RecordError : the folder holds no sweep
     MissingExtraError : pandas is absent
     """
-    try:
-        import pandas as pd
-    except ImportError:
-        raise MissingExtraError.of("pandas", "sweep", "loading results as a DataFrame") from None
     _, rows = read_rows(folder)
-    return pd.DataFrame(rows)
+    return data_frame(rows, "loading results as a DataFrame")

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
-from shoal.core.errors import MissingExtraError, UnknownNameError
+from shoal.core.errors import UnknownNameError
 from shoal.core.keywords import lists_keywords, split_keywords
 from shoal.core.sheet import Sheet
 from shoal.experiments.design import Design, grid, together
@@ -14,6 +14,7 @@ from shoal.experiments.results import aggregate, seal
 from shoal.experiments.rows import Row
 from shoal.experiments.sweep import Stop
 from shoal.experiments.sweep import sweep as run_sweep
+from shoal.record.tables import data_frame
 from shoal.record.words import spread_text
 from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source, load
@@ -71,11 +72,7 @@ class Swept:
         }
         if what not in tables:
             raise UnknownNameError.of("table", what, tables)
-        try:
-            import pandas as pd
-        except ImportError:
-            raise MissingExtraError.of("pandas", "sweep", "a sweep as a DataFrame") from None
-        return pd.DataFrame(tables[what]())
+        return data_frame(tables[what](), "a sweep as a DataFrame")
 
     def plot(
         self, x: str | None = None, y: str = "time_on_target", hue: str | None = None, axes: "Axes | None" = None

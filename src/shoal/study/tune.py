@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from shoal.core.keywords import lists_keywords, split_keywords
-from shoal.experiments.compiled_first import compiled_first
+from shoal.experiments.compiled_first import compiled_first, say_nothing
 from shoal.experiments.conditions import conditions_of
 from shoal.experiments.executors import Executor
 from shoal.experiments.objective import one_objective
@@ -74,7 +74,7 @@ def tune(scenario: Source, vary: Mapping[str, Any], **changes: Any) -> Tuned:
         variables_of(vary),
         {name: written(value) for name, value in changes.items()},
         options,
-        executor=compiled_first(executor_on(options.device, options.jobs), _say_nothing),
+        executor=compiled_first(executor_on(options.device, options.jobs), say_nothing),
         report=progress_of(options.progress),
     )
 
@@ -116,7 +116,3 @@ def tuned(
     )
     with store_folder(options.out) as folder:
         return Tuned(called(scenario), run_tune(search, folder, executor=executor, report=report))
-
-
-def _say_nothing(message: str) -> None:
-    """A library never prints."""

@@ -3,12 +3,12 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from shoal.core.errors import MissingExtraError
 from shoal.core.sheet import Sheet
 from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.start import value_of
 from shoal.experiments.tune import TuneResult
 from shoal.record.statistics import Estimate
+from shoal.record.tables import data_frame
 from shoal.record.words import interval_text, mean_text, spread_text
 from shoal.scenario.schema import Scenario
 from shoal.study.searching import shown
@@ -64,13 +64,9 @@ class Tuned:
         ------
         MissingExtraError : pandas is not installed
         """
-        try:
-            import pandas as pd
-        except ImportError:
-            raise MissingExtraError.of("pandas", "sweep", "a search as a DataFrame") from None
         trials = self.result.trials
-        return pd.DataFrame([{**self.start, **trial.point, "mean": trial.mean, "runs": list(trial.values),
-                              "reason": trial.reason} for trial in trials])  # fmt: skip
+        return data_frame([{**self.start, **trial.point, "mean": trial.mean, "runs": list(trial.values),
+                              "reason": trial.reason} for trial in trials], "a search as a DataFrame")  # fmt: skip
 
     def plot(self) -> "Figure":
         """Draw the value of every trial, and that of start and best on fresh seeds (extra: plots)."""

@@ -7,7 +7,7 @@ import numpy as np
 
 from shoal.core.messages import Report
 from shoal.engine.listen import listener
-from shoal.strategies import contract
+from shoal.strategies import asking
 
 _device: Any = numba.cuda.jit(device=True)  # numba has no types that mypy sees
 
@@ -19,15 +19,15 @@ def add_up(arrived, listeners, links, params, agents, sums):
         arrived.said, arrived.told, arrived.at, links.square, links.rank, links.reach[0],
     )  # fmt: skip
     me = listener(listeners, 0)
-    contract.clear(sums, 0, params)
+    asking.clear(sums, 0, params)
     heard = 0
     j = 0
     while j < agents:
         hears = square[j, 0] <= reach
-        if contract.has_influence(params):
-            nearer = contract.rank_of(rank, j, 0, params)
+        if asking.has_influence(params):
+            nearer = asking.rank_of(rank, j, 0, params)
             other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, nearer)
-            contract.add(sums, 0, contract.influence(me, other, params), hears)
+            asking.add(sums, 0, asking.influence(me, other, params), hears)
         heard += 1 if hears else 0
         j += 1
     return heard
@@ -45,10 +45,10 @@ def choose(arrived, listeners, links, params, agents):
     j = 0
     while j < agents:
         other = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, None)
-        if contract.leads(other, params) and square[j, 0] <= reach:
-            nearer = contract.rank_of(rank, j, 0, params)
+        if asking.leads(other, params) and square[j, 0] <= reach:
+            nearer = asking.rank_of(rank, j, 0, params)
             ranked = Report(j, said.x[j], said.y[j], said.vx[j], said.vy[j], said.on_target[j], told[j], at, nearer)
-            priority = contract.priority(me, ranked, params)
+            priority = asking.priority(me, ranked, params)
             if priority < lowest:
                 lowest = priority
                 leader = j
