@@ -5,7 +5,7 @@ import json
 
 from frames import decode
 from shoal.scenario.load import read_table
-from shoal.viewer.client import NONSENSE, UNHEARD, Client
+from shoal.viewer.client import BURST, NONSENSE, UNHEARD, Client
 from shoal.viewer.session import Session
 from shoal.viewer.worker import View, Worker
 
@@ -157,6 +157,13 @@ class TestHearing:
         socket = talk(idle(), nothing, *["nonsense"] * (NONSENSE + 5))
         assert socket.closed == 1008
         assert len(socket.said) == 4
+
+    def test_a_page_that_asks_without_end_is_not_listened_to(self):
+        worker = idle()
+        socket = talk(worker, nothing, *['{"do": "speed", "value": 2.0}'] * (BURST + 50))
+        assert socket.closed == 1008
+        assert len(socket.said) >= 40
+        assert worker._asked.full()
 
     def test_sense_is_passed_on(self):
         worker = idle()

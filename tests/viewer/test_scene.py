@@ -20,7 +20,7 @@ class TestSceneOf:
         assert (told["epoch"], told["since"], told["name"], told["seed"]) == (2, 40, "oceans2020", 1)
         assert told["area"] == {"width": 20, "height": 20, "half_x": 8.5, "half_y": 8.5}
         assert [(fleet["name"], fleet["count"]) for fleet in told["fleets"]] == [("BoB-1", 15), ("BoB-0", 35)]
-        assert told["targets"] == [{"kind": "waypoint", "radius": 1.0, "speed": 3.0}]
+        assert told["targets"] == [{"kind": "waypoint", "name": None, "radius": 1.0, "speed": 3.0}]
         assert (told["neighbors"], told["range"], told["unit"], told["time_step"]) == (20, None, 1.0, 0.1)
         assert told["strategy"]["name"] == "knn-pso"
         assert told["strategy"]["params"]["delta"] == 0.01

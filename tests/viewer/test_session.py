@@ -283,3 +283,17 @@ class TestHello:
 def test_an_impossible_speed_is_refused(speed):
     with pytest.raises(ScenarioError, match="times real time"):
         session(speed=speed)
+
+
+def test_time_stops_once_where_a_recorded_track_is_over(tmp_path):
+    pytest.importorskip("pyproj", reason="pyproj is not installed")
+    file = tmp_path / "track.csv"
+    file.write_text("time,lat,lon\n2026-01-01T00:00:00Z,60,5\n2026-01-01T00:00:02Z,60.00001,5\n", encoding="utf-8")
+    target = {"kind": "track", "file": str(file), "radius": 1.0}
+    one = session(table(targets=[target], **{"area.origin": [5.0, 60.0]}), speed=1000)
+    played(one, 1)
+    assert (one.number, one.playing) == (21, False)  # 2 s, and the first step without it
+    ask(one, "play")
+    played(one, 1)
+    assert one.playing
+    assert one.number > 21

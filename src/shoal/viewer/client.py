@@ -14,6 +14,8 @@ from shoal.viewer.worker import View, Watcher
 
 NONSENSE = 20  # malformed messages after which a page is disconnected
 UNHEARD = 32  # error messages that wait for one page, at most
+PACE = 0.005  # [s] between two requests that a page may ask for all the time: no hand is faster
+BURST = 1000  # requests that it may be ahead of that; beyond, it is disconnected
 
 
 class Show(Protocol):
@@ -46,6 +48,7 @@ class Client:
         self._show = show
         self._news = asyncio.Event()
         self._nonsense = 0
+        self._due = 0.0  # [s] of the loop's clock: when all that was heard would have come at its pace
         self._errors: deque[str] = deque(maxlen=UNHEARD)
         loop = asyncio.get_running_loop()
 
@@ -67,10 +70,11 @@ class Client:
         finally:
             self._show.leave(self._watcher)
             telling.cancel()
-            with suppress(asyncio.CancelledError, WebSocketDisconnect):
+            with suppress(asyncio.CancelledError, WebSocketDisconnect, RuntimeError):  # told after it was closed
                 await telling
         if self._nonsense > NONSENSE:
-            await self._socket.close(1008, "too many messages that are not requests")
+            with suppress(WebSocketDisconnect, RuntimeError):  # it has left already
+                await self._socket.close(1008, "too many requests, or messages that are none")
 
     async def _tell(self) -> None:
         await self._socket.send_text(self._show.hello)
@@ -101,6 +105,9 @@ class Client:
             message = await self._socket.receive()
             if message["type"] != "websocket.receive":
                 return
+            if self._asks_too_much():
+                self._nonsense = NONSENSE + 1
+                return
             try:
                 text = message.get("text")
                 request = parse_request(text if text is not None else message.get("bytes") or b"")
@@ -109,6 +116,12 @@ class Client:
                 self._fail(str(error))
             else:
                 self._show.ask(request, self._watcher)
+
+    def _asks_too_much(self) -> bool:
+        """Whether a page asks on and on, faster than anybody can."""
+        now = asyncio.get_running_loop().time()
+        self._due = max(self._due, now) + PACE
+        return self._due > now + BURST * PACE
 
     def _fail(self, message: str) -> None:
         self._errors.append(message)

@@ -16,6 +16,7 @@ from shoal.scenario.load import scenario_from
 from shoal.scenario.schema import Scenario
 from shoal.strategies import CATALOGUE
 from shoal.strategies.contract import RESERVED
+from shoal.viewer.conditions import comings_and_goings
 from shoal.viewer.frame import FULL, pack
 from shoal.viewer.gauging import Gauging
 from shoal.viewer.scene import as_json, scene_of
@@ -44,6 +45,14 @@ class LiveRun:
         scenario = scenario_from(table, where=where, text=text)
         self._first_strategy = (scenario.strategy.name, table["strategy"])
         self._begin(scenario)
+
+    @property
+    def ends(self) -> int | None:
+        """The step from which no target will be there any more: where all recorded tracks are over; None if never."""
+        scenario = self.simulation.scenario
+        if any(target.kind != "track" for target in scenario.targets):
+            return None
+        return int(self.simulation.tracks.time.max() / scenario.time_step) + 1
 
     def advance(self, steps: int) -> None:
         """Advance by a number of steps."""
@@ -141,12 +150,15 @@ class LiveRun:
     def _settle(self, simulation: Simulation) -> None:
         self.simulation = simulation
         self._epoch += 1
+        agents = simulation.scenario.agents
         scene = scene_of(
             simulation.scenario,
             simulation.memory_fields,
-            has_links=link_bytes(simulation.scenario.agents) > 0,
+            has_links=link_bytes(agents) > 0,
             epoch=self._epoch,
             since=simulation.number,
+            events=comings_and_goings(simulation.swarm.joins[:agents], simulation.swarm.leaves[:agents]),
+            ends=self.ends,
         )
         self.message = as_json({"type": "scene", "run": self.place, "scene": scene})
 

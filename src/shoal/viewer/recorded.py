@@ -8,6 +8,7 @@ import numpy.typing as npt
 from shoal.record.course import Course
 from shoal.record.frames import Moment, engaged_by_frame, moment_of
 from shoal.record.record import Record
+from shoal.viewer.conditions import kept_comings_and_goings
 from shoal.viewer.frame import FULL, RECENT, Gauges, pack
 from shoal.viewer.scene import scene_of
 
@@ -24,7 +25,12 @@ def recorded_scene(record: Record, run: int) -> dict[str, Any]:
     kept = record.trajectories[run]
     starts = np.concatenate([[0], np.cumsum(record.tallies[run].batch_steps)[:-1]])
     return {
-        **scene_of(record.scenario, kept.memory, has_links=kept.links.shape[2] > 0),
+        **scene_of(
+            record.scenario,
+            kept.memory,
+            has_links=kept.links.shape[2] > 0,
+            events=kept_comings_and_goings(kept.step, kept.alive),
+        ),
         "metrics": [
             {
                 "name": name,

@@ -2,21 +2,24 @@
 
 import json
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from pathlib import PurePath
 from typing import Any
 
-from shoal.scenario.choices import speed_of
+from shoal.scenario.choices import degree_text, speed_of, strategy_text
 from shoal.scenario.schema import Scenario
 from shoal.scenario.strategy_choice import params_model
 from shoal.strategies import Strategy
+from shoal.viewer.conditions import Event, conditions_of
 from shoal.viewer.frame import REPULSION
 
 _EXACT = 2**53  # beyond, JavaScript's numbers have gaps
 
 
 def scene_of(
-    scenario: Scenario, memory: Iterable[str], *, has_links: bool, epoch: int = 0, since: int = 0
-) -> dict[str, Any]:
+    scenario: Scenario, memory: Iterable[str], *, has_links: bool, epoch: int = 0, since: int = 0,
+    events: Sequence[Event] = (), ends: int | None = None,
+) -> dict[str, Any]:  # fmt: skip
     """Return the scene of a scenario, SI and defaults filled in.
 
     Parameters
@@ -24,6 +27,8 @@ def scene_of(
     memory : fields that agents remember
     has_links : whether frames say who hears whom
     epoch, since : number of this scene, and the step that it begins with
+    events : who joins and who is lost, as far as it is known
+    ends : step from which no target will be there any more, if there is one
     """
     area, strategy, seed = scenario.area, scenario.strategy, scenario.seed
     return {
@@ -50,18 +55,32 @@ def scene_of(
             for fleet, count in zip(scenario.fleets, scenario.counts, strict=True)
         ],
         "targets": [
-            {"kind": target.kind, "radius": target.radius, "speed": speed_of(target)} for target in scenario.targets
+            {"kind": target.kind, "name": _name_of(target), "radius": target.radius, "speed": speed_of(target)}
+            for target in scenario.targets
         ],
         "neighbors": scenario.network.neighbors,
+        "k": degree_text(scenario),
+        "adapts": scenario.network.adaptive is not None,
         "range": scenario.network.range,
         "strategy": {
             "name": strategy.name,
             "params": strategy.params,
             "summary": strategy.known.summary if strategy.known else "",
         },
+        "strategies": strategy_text(scenario),
+        "conditions": conditions_of(scenario),
+        "events": events,
+        "ends": ends,
         "has_repulsion": REPULSION in memory,
         "has_links": has_links,
     }
+
+
+def _name_of(target: Any) -> str | None:
+    """What a recorded target is called: its file, and which track of that."""
+    if target.kind != "track":
+        return None
+    return f"{PurePath(target.file).name}{f', {target.id}' if target.id else ''}"
 
 
 def describe(strategy: Strategy) -> dict[str, Any]:

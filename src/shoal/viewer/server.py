@@ -1,5 +1,7 @@
 """The server: the page's files and its WebSocket, from a thread of its own."""
 
+import asyncio
+import logging
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -52,6 +54,7 @@ def serving(app: "Starlette", host: str = LOCAL, port: int = 0) -> Iterator[str]
     require_libraries()
     import uvicorn
 
+    logging.getLogger("uvicorn.error").addFilter(_is_ours)
     listener = listen(host, port)
     config = uvicorn.Config(
         Guard(app, names_of(host)),
@@ -111,6 +114,11 @@ def _routes(files: dict[str, tuple[bytes, str]], policy: str) -> list[Any]:
         return Route(path, answer, methods=["GET"])
 
     return [route(path, *file) for path, file in files.items()]
+
+
+def _is_ours(told: logging.LogRecord) -> bool:
+    """Whether an error is one of the server: not that somebody sent text that is none, nor that pages end with it."""
+    return not (told.exc_info and isinstance(told.exc_info[1], (UnicodeError, asyncio.CancelledError)))
 
 
 def require_libraries() -> None:

@@ -129,8 +129,10 @@ class Session:
     def play_on(self) -> float:
         """Run to the next frame of the speed, keep it, show it; return how long it lasts [s]."""
         begin, stride = self.number, self.stride()
-        self._advance(begin - begin % stride + stride)
-        if self.done:
+        over = min((run.ends for run in self.runs if run.ends is not None and run.ends > begin), default=None)
+        until = begin - begin % stride + stride
+        self._advance(until if over is None else min(until, over))
+        if self.done or self.number == over:  # where a recorded track is over, time stops once
             self.playing = False
         return (self.number - begin) * self.time_step / self.speed
 

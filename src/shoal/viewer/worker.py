@@ -15,6 +15,7 @@ from shoal.viewer.session import Session
 
 PATIENCE = 0.25  # [s] time that is not made up for when the engine cannot keep the speed
 WAITING = 256  # requests in the queue, at most
+AT_ONCE = 8  # requests that are obeyed before a frame that is due
 
 
 class View(NamedTuple):
@@ -111,13 +112,19 @@ class Worker:
 
     def _keep_time(self) -> None:
         due = time.monotonic()
+        obeyed = 0  # since the last frame
         was_done = False
         while not self._ended.is_set():
+            playing = self.session.playing
             try:
-                asked = self._asked.get(timeout=max(0.0, due - time.monotonic()) if self.session.playing else None)
+                if playing and obeyed >= AT_ONCE and time.monotonic() >= due:
+                    raise Empty  # whoever asks without end holds nobody up
+                asked = self._asked.get(timeout=max(0.0, due - time.monotonic()) if playing else None)
             except Empty:
+                obeyed = 0
                 due = next_due(due, time.monotonic(), self._play_on())
             else:
+                obeyed += 1
                 played = self.session.playing
                 if asked:
                     self._obey(asked)
