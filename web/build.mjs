@@ -20,7 +20,7 @@ if (process.argv.includes("--tests")) {
   await build({
     entryPoints: [
       { in: "src/main.ts", out: "app" },
-      { in: "src/app.css", out: "app" },
+      { in: "src/page.css", out: "app" },
     ],
     bundle: true,
     minify: true,

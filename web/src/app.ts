@@ -1,15 +1,18 @@
 // The page: what comes from the source goes to stages and panels, what people do goes back.
 
 import { byId, el } from "./dom";
+import { Conditions, phrases, type Told } from "./conditions";
 import { forgetFleets, rememberFleets } from "./fleets";
-import { count, short } from "./format";
+import { makeFoldable } from "./folds";
 import { History } from "./history";
 import { listen, type Key } from "./keyboard";
+import { Arrangement } from "./layout";
 import { Numbers, type RunNumbers } from "./numbers";
 import { readTheme, type Theme } from "./palette";
 import { attachPointer } from "./pointer";
 import type { Failure, Frame, Hello, Past, Request, Scene, Status } from "./protocol";
 import { Roll } from "./roll";
+import { drawForPrint, offerFullScreen, switchFullScreen } from "./screen";
 import type { Listener, Source } from "./source";
 import { Stage } from "./stage";
 import { SwarmControls, TOOLS } from "./swarm";
@@ -19,6 +22,7 @@ import { Transport } from "./transport";
 const NUMBERS_EVERY = 100; // [ms]: faster than this nobody reads
 const PATIENCE = 700; // [ms] without an answer after which the engine is said to be busy
 const RECORDING = "A record is being written, and a record is one scenario: time can be stopped and scrubbed, the swarm cannot be changed.";
+const ENDED = "The recorded track ends here. Play goes on without a target.";
 const PAST = "This is the past. Go to the newest step (End) to change the swarm.";
 
 export class App implements Listener {
@@ -35,7 +39,11 @@ export class App implements Listener {
     (request) => this.send(request),
     () => this.api.step(),
   );
+  private readonly arrangement = new Arrangement(() => this.refresh());
+  private readonly conditions = new Conditions();
+  private letters: string[] = [];
   private theme: Theme = readTheme();
+  private screenTheme: string | null = null; // while paper has its own
   private counted = 0; // [ms], when the numbers were last drawn
   private uncounted = true;
   private waiting = 0; // timer: the engine has not yet answered a change
@@ -48,7 +56,8 @@ export class App implements Listener {
     byId("help-open").onclick = () => { this.help(); };
     byId("help-close").onclick = () => { byId<HTMLDialogElement>("help").close(); };
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.refresh());
-    new ResizeObserver(() => (this.uncounted = true)).observe(document.body);
+    offerFullScreen();
+    drawForPrint((printing) => this.print(printing));
     listen(this.keys());
     requestAnimationFrame(this.tick);
     source.connect();
@@ -62,7 +71,7 @@ export class App implements Listener {
     forgetFleets();
     byId("banner").hidden = true;
     document.body.dataset.runs = String(hello.runs);
-    const letters = hello.runs > 1 ? ["A", "B"].slice(0, hello.runs) : [""];
+    const letters = (this.letters = hello.runs > 1 ? ["A", "B"].slice(0, hello.runs) : [""]);
     this.stages = letters.map((letter, run) => new Stage(run, letter, (each) => this.source.tape(each)));
     this.runs = letters.map(() => ({ history: new History(), scene: null, frame: null, since: 0, marks: [] }));
     this.numbers = new Numbers(letters);
@@ -70,7 +79,10 @@ export class App implements Listener {
     this.roll = hello.fleet ? new Roll() : null;
     this.swarm = this.source.live && !hello.fleet ? new SwarmControls(hello, letters, (request) => this.send(request), () => this.showTool()) : null;
     byId("stages").replaceChildren(...this.stages.map((stage) => stage.root));
-    byId("side").replaceChildren(this.numbers.root, el("div", { class: "controls" }, (this.swarm ?? this.roll)?.root ?? this.numbers.table, this.switches.root));
+    byId("side").replaceChildren(
+      el("h2", { class: "unseen" }, "Numbers and controls"), this.arrangement.tabs, this.numbers.root,
+      el("div", { class: "controls" }, (this.swarm ?? this.roll)?.root ?? this.numbers.table, this.switches.root, this.conditions.root),
+    );
     this.transport.offer(hello.speeds);
     this.transport.restart.disabled = hello.recording;
     const mode = byId("mode");
@@ -111,6 +123,9 @@ export class App implements Listener {
     this.swarm?.describe(run, scene);
     this.switches.describe(this.stages.flatMap((stage) => stage.newest ?? []));
     this.numbers.describe(scene);
+    this.arrangement.describe([scene], this.stages.length);
+    this.conditions.describe(this.told());
+    makeFoldable(byId("side"));
     this.describe();
     this.refresh();
   }
@@ -133,6 +148,7 @@ export class App implements Listener {
     this.transport.update(status, this.stages[0]?.newest?.time_step ?? 0);
     this.showBusy(status.busy);
     if (locks) this.lock();
+    if (locks && !status.playing && status.step === this.stages[0]?.newest?.ends) this.toast(ENDED);
     this.uncounted = true;
   }
 
@@ -178,6 +194,7 @@ export class App implements Listener {
       for (const stage of this.stages) stage.describe(this.status_?.playing ?? false);
       if (this.runs[0].frame) this.roll?.call(this.runs[0].frame);
       const newest = Math.max(...this.runs.map(({ frame }) => frame?.step ?? 0));
+      this.conditions.tell(this.told());
       this.numbers.draw(this.theme, this.runs, this.status_?.last ?? newest);
     }
     requestAnimationFrame(this.tick);
@@ -207,6 +224,24 @@ export class App implements Listener {
     const { at_end, playing } = this.status_ ?? { at_end: true, playing: true };
     const reason = this.hello_.recording ? RECORDING : at_end || playing ? null : PAST;
     this.swarm.lock(reason, !this.hello_.recording);
+  }
+
+  private told(): Told[] {
+    return this.stages.flatMap(({ newest, frame }, run) => (newest ? [{ letter: this.letters[run] ?? "", scene: newest, frame }] : []));
+  }
+
+  /** Paper is light, and drawn on before it is printed. */
+  private print(printing: boolean): void {
+    const { dataset } = document.documentElement;
+    if (printing) this.screenTheme = dataset.theme ?? null;
+    if (printing) dataset.theme = "light";
+    else if (this.screenTheme === null) delete dataset.theme;
+    else dataset.theme = this.screenTheme;
+    this.refresh();
+    for (const stage of this.stages) {
+      stage.lieOnPaper(printing);
+      stage.draw(performance.now(), this.switches.look, this.theme);
+    }
   }
 
   private showTool(): void {
@@ -244,6 +279,7 @@ export class App implements Listener {
   }
 
   private toast(words: string): void {
+    if ([...byId("toasts").children].some((each) => each.textContent === words)) return;
     const note = el("p", {}, words);
     byId("toasts").append(note);
     if (byId("toasts").childElementCount > 3) byId("toasts").firstElementChild!.remove();
@@ -299,6 +335,8 @@ export class App implements Listener {
           key("-", "farther", () => this.zoom(0.8)),
           key("0", "the whole area", () => this.zoom(0)),
           key("d", "dark, light", () => this.switchTheme()),
+          key("b", "panels", () => this.arrangement.toggle()),
+          key("z", "full screen", () => switchFullScreen()),
           key("?", "this help", () => this.help()),
         ],
       },
@@ -313,15 +351,4 @@ export class App implements Listener {
       },
     ];
   }
-}
-
-/** What a run is, in phrases. */
-function phrases(scene: Scene): string[] {
-  const agents = scene.fleets.reduce((sum, fleet) => sum + fleet.count, 0);
-  const speeds = scene.targets.map((target) => (target.speed === null ? target.kind : `${short(target.speed)} m/s`));
-  const k = scene.neighbors === "all" ? "all" : count(scene.neighbors);
-  return [
-    `${count(agents)} buoys`, `k = ${k}`, scene.strategy.name,
-    `${speeds.length > 1 ? `${speeds.length} targets` : "target"} ${[...new Set(speeds)].join(", ")}`, `seed ${scene.seed}`,
-  ];
 }

@@ -44,9 +44,10 @@ export class Legend {
 }
 
 /** Each kind of target once, in words. */
-function targetKinds(scene: Scene): Set<string> {
-  const name = scene.targets.length > 1 ? "targets" : "target";
-  return new Set(
-    scene.targets.map(({ kind, speed, radius }) => `${name}, ${speed === null ? kind : `${short(speed)} m/s`}, ρ ${short(radius)} m`),
-  );
+function targetKinds(scene: Scene): string[] {
+  const kinds = scene.targets.map(({ name, kind, speed, radius }) => `${name ?? (speed === null ? kind : `${short(speed)} m/s`)}, ρ ${short(radius)} m`);
+  return [...new Set(kinds)].map((words) => {
+    const alike = kinds.filter((each) => each === words).length;
+    return `${alike > 1 ? `${alike} targets` : "target"}, ${words}`;
+  });
 }

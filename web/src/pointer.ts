@@ -57,6 +57,7 @@ export function attachPointer(stage: Stage, actions: Actions): void {
 
   canvas.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
+    if (document.activeElement instanceof HTMLElement) document.activeElement.blur(); // arrows are steps after a click
     canvas.setPointerCapture(event.pointerId);
     const at = place(event);
     pointers.set(event.pointerId, at);
@@ -67,6 +68,8 @@ export function attachPointer(stage: Stage, actions: Actions): void {
     if (dragged === null) actions.say("No target is there now.");
     else dragSoon(water(at.x, at.y));
   });
+
+  canvas.addEventListener("mousedown", (event) => event.preventDefault()); // the keyboard comes by Tab or M
 
   canvas.addEventListener("pointermove", (event) => {
     const at = place(event);

@@ -9,6 +9,7 @@ export interface Fleet {
 
 export interface Target {
   kind: string;
+  name: string | null; // of a recorded track
   radius: number; // [m]
   speed: number | null; // [m/s]
 }
@@ -34,8 +35,14 @@ export interface Scene {
   fleets: Fleet[];
   targets: Target[];
   neighbors: number | "all";
+  k: string; // as it is, in words: "20", "5 (scouts), all (relays)", "10 to 25 (adaptive)"
+  adapts: boolean;
   range: number | null; // [m]
   strategy: { name: string; params: Record<string, unknown>; summary: string };
+  strategies: string; // of all fleets, in words
+  conditions: string[]; // what disturbs the swarm, a sentence each
+  events: [step: number, what: "lost" | "joined", agent: number][]; // as far as they are known, also those to come
+  ends: number | null; // step from which no target will be there any more
   has_repulsion: boolean;
   has_links: boolean;
   metrics?: Metric[];

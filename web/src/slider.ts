@@ -18,8 +18,8 @@ export function slider(name: string, id: string, act: (value: number) => void): 
   const output = el("output", { for: id });
   let say = String as (value: number) => string;
   let waiting = 0;
-  const tell = (): void => {
-    const words = say(Number(input.value));
+  const tell = (value = Number(input.value)): void => {
+    const words = say(value);
     output.textContent = words;
     input.setAttribute("aria-valuetext", words);
   };
@@ -40,8 +40,9 @@ export function slider(name: string, id: string, act: (value: number) => void): 
       input.min = String(min);
       input.max = String(max);
       input.step = String(step);
-      if (!waiting) input.value = String(value);
-      tell();
+      if (waiting) return;
+      input.value = String(value);
+      tell(value); // the truth, wherever the thumb can stand
     },
     refuse(reason) {
       input.disabled = true;

@@ -25,6 +25,7 @@ export interface Point {
   y: number;
 }
 
+const PAPER = { width: 690, height: 690 }; // [px]
 const LONGEST_GLIDE = 250; // [ms]
 const LONGEST_JUMP = 0.3; // of the area's longer side; what moves farther between two frames is not seen to glide
 const REACH = 8 / 3; // arena units that the fastest agent covers in the length of a trail; targets' are three times it
@@ -53,6 +54,7 @@ export class Stage {
   private pairs: { frame: Frame; pairs: Pairs } | null = null;
   private stale = true;
   private size = { width: 0, height: 0 };
+  private onPaper = false;
   // Gliding: everything moves from where it was drawn to where the frame has it.
   private began = 0; // [ms]
   private glide = 0; // [ms]
@@ -108,8 +110,9 @@ export class Stage {
     if (!frame || !scene) return;
     const there = frame.present.some((_, target) => isPresent(frame, target));
     const state = there ? `${fixed(frame.engaged, 0)} on target` : "no target is there";
-    this.moment.textContent = `Step ${count(frame.step)} · ${time(frame.step * scene.time_step)} · ${state}`;
     const gone = frame.x.length - this.livingAgents();
+    const missing = gone > 0 ? ` · ${count(frame.x.length - gone)} of ${count(frame.x.length)} there` : "";
+    this.moment.textContent = `Step ${count(frame.step)} · ${time(frame.step * scene.time_step)} · ${state}${missing}`;
     const silent = frame.flags.reduce((sum, _, agent) => sum + Number(isAlive(frame, agent) && isSilent(frame, agent)), 0);
     this.legend.note(gone, silent, this.dotted);
     if (playing) return; // a label that changes all the time is read out all the time
@@ -213,11 +216,23 @@ export class Stage {
   private adopt(scene: Scene): void {
     this.scene = scene;
     this.legend.describe(scene);
-    this.water.style.setProperty("--aspect", `${scene.area.width} / ${scene.area.height}`);
     this.fit();
   }
 
+  /** Take the width of a sheet of paper, or of the page again. */
+  lieOnPaper(printing: boolean): void {
+    this.onPaper = false;
+    if (!printing) return this.resize(this.water.clientWidth, this.water.clientHeight);
+    const area = this.scene?.area ?? { width: 1, height: 1 };
+    const height = Math.min(Math.round((PAPER.width * area.height) / area.width) + 60, PAPER.height);
+    this.water.style.setProperty("--paper-width", `${PAPER.width}px`);
+    this.water.style.setProperty("--paper-height", `${height}px`);
+    this.resize(PAPER.width, height);
+    this.onPaper = true; // what the browser measures from now on is not the screen's
+  }
+
   private resize(width: number, height: number): void {
+    if (this.onPaper) return;
     const ratio = Math.min(devicePixelRatio || 1, 2);
     this.size = { width, height };
     this.canvas.width = Math.round(width * ratio);

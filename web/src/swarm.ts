@@ -52,7 +52,11 @@ export class SwarmControls {
     this.targetSpeed = slider("Target speed", "target-speed", (value) => this.change({ target_speed: value }));
     this.fast = slider("Fast buoys", "fast", (value) => this.change({ fast: value }));
     for (const each of hello.strategies) this.strategy.append(el("option", { value: each.name, title: each.summary }, each.name));
-    this.strategy.onchange = () => { this.change({ strategy: this.strategy.value }); };
+    this.strategy.onchange = () => {
+      this.change({ strategy: this.strategy.value });
+      this.summary.textContent = "loading …";
+      this.parameters.replaceChildren();
+    };
     this.joins.onchange = () => { this.fleet = Number(this.joins.value); };
     this.restart.onclick = () => { this.startAgain(); };
     this.seed.onkeydown = (event) => { if (event.key === "Enter") this.startAgain(); };
@@ -84,7 +88,7 @@ export class SwarmControls {
   }
 
   choose(tool: Tool): void {
-    if (this.fields.disabled && tool !== "look") return;
+    if (tool !== "look" && (this.fields.disabled || this.root.querySelector<HTMLInputElement>(`#tool-${tool}`)?.disabled)) return;
     this.tool = tool;
     for (const input of this.root.querySelectorAll<HTMLInputElement>("input[name=tool]")) input.checked = input.value === tool;
     this.toolHint.textContent = TOOL_WORDS[tool][1];
@@ -102,7 +106,8 @@ export class SwarmControls {
   private show(scene: Scene): void {
     const agents = scene.fleets.reduce((sum, fleet) => sum + fleet.count, 0);
     const k = scene.neighbors === "all" ? agents - 1 : scene.neighbors;
-    this.k.show(k, { min: 1, max: Math.max(agents - 1, 1), step: 1 }, (value) =>
+    if (scene.adapts) this.k.refuse(scene.k);
+    else this.k.show(k, { min: 1, max: Math.max(agents - 1, 1), step: 1 }, (value) =>
       value >= agents - 1 ? `all ${count(value)}` : `${count(value)} of ${count(agents - 1)}`,
     );
     this.showTargetSpeed(scene);
@@ -111,6 +116,11 @@ export class SwarmControls {
     this.joins.replaceChildren(...scene.fleets.map((fleet, number) => el("option", { value: number }, fleet.name)));
     this.fleet = Math.min(this.fleet, scene.fleets.length - 1);
     this.joins.value = String(this.fleet);
+    const recorded = scene.targets.every(({ kind }) => kind === "track");
+    const move = this.root.querySelector<HTMLInputElement>("#tool-move")!;
+    move.disabled = recorded; // recorded targets go where they went
+    move.parentElement!.title = recorded ? "Recorded targets go where they went." : `${TOOL_WORDS.move[1]} (key 2)`;
+    if (recorded && this.tool === "move") this.choose("look");
     if (document.activeElement !== this.seed) this.seed.value = String(scene.seed);
   }
 
@@ -120,8 +130,12 @@ export class SwarmControls {
     const fastest = Math.max(...scene.fleets.map((fleet) => fleet.max_speed));
     const least = 4 * Math.max(fastest, 0.5 * speeds[0]);
     if (speeds[0] > this.speedLimit || !this.speedLimit) this.speedLimit = Number(Math.max(least, speeds[0]).toPrecision(1));
-    const step = 10 ** (Math.floor(Math.log10(this.speedLimit)) - 1);
-    this.targetSpeed.show(speeds[0], { min: 0, max: this.speedLimit, step }, (value) => `${short(value)} m/s`);
+    const step = 10 ** (Math.floor(Math.log10(this.speedLimit / 2)) - 1);
+    const all = speeds.length > 1 ? `, all ${speeds.length}` : "";
+    const differ = new Set(speeds).size > 1;
+    this.targetSpeed.show(speeds[0], { min: 0, max: this.speedLimit, step }, (value) =>
+      value === speeds[0] && differ ? `${speeds.map(short).join(" and ")} m/s` : `${short(value)} m/s${all}`,
+    );
   }
 
   private showFast(scene: Scene, agents: number): void {

@@ -64,6 +64,7 @@ export class Switches {
   private allow(name: keyof Look, possible: boolean, why: string): void {
     const input = this.inputs.get(name)!;
     input.disabled = !possible;
+    input.checked = possible && this.look[name];
     const words = SWITCHES.find((each) => each.name === name)!.words;
     input.nextElementSibling!.textContent = possible ? words : `${words}: ${why}`;
   }
