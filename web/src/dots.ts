@@ -2,7 +2,7 @@
 
 import type { Camera } from "./camera";
 import { styleOf } from "./fleets";
-import { fleetColor, type Theme } from "./palette";
+import { lineColor, type Theme } from "./palette";
 import { isAlive, isOnTarget, type Frame, type Scene } from "./protocol";
 
 export const MARKED = 2000; // agents in view that markers can be drawn for, many times a second
@@ -52,7 +52,7 @@ export class Dots {
     for (let agent = 0; agent < frame.x.length; agent++) {
       while (agent >= end && fleet < scene.fleets.length - 1) {
         end += scene.fleets[++fleet].count;
-        color = rgb(fleetColor(styleOf(scene.fleets[fleet])));
+        color = rgb(lineColor(styleOf(scene.fleets[fleet]), theme));
       }
       const column = Math.floor(left + ratio * scale * frame.x[agent]);
       const row = Math.floor(top - ratio * scale * frame.y[agent]);

@@ -4,7 +4,7 @@ import { ticks, type Camera } from "./camera";
 import { fastestFleet, styleOf } from "./fleets";
 import { fixed } from "./format";
 import type { Pairs } from "./links";
-import { fleetColor, fleetMarker, TARGET_COLOR, traceMarker, type Theme } from "./palette";
+import { COVERS, fleetColor, fleetMarker, lineColor, rimColor, TARGET_COLOR, traceMarker, type Theme } from "./palette";
 import { isAlive, isOnTarget, isPresent, isSilent, type Frame, type Scene } from "./protocol";
 
 /** One moment to draw: a frame, with positions that may lie between it and the one before. */
@@ -102,7 +102,7 @@ export function drawTargets(brush: Brush, { scene, frame, targetX, targetY, past
     const y = camera.toY(targetY[target]);
     context.lineWidth = 2.2;
     const track = past.filter((each) => isPresent(each, target)).map((each) => [each.targetX[target], each.targetY[target]]);
-    drawFading(brush, [...track, [targetX[target], targetY[target]]], 0.85);
+    drawFading(brush, [...track, [targetX[target], targetY[target]]], COVERS.track);
     const radius = scene.targets[target]?.radius * camera.scale;
     context.globalAlpha = 0.22;
     disc(context, x, y, radius);
@@ -124,7 +124,7 @@ export function drawTargets(brush: Brush, { scene, frame, targetX, targetY, past
 
 export function drawLinks({ context, camera, theme }: Brush, { x, y }: Moment, pairs: Pairs): void {
   context.strokeStyle = theme.muted;
-  context.globalAlpha = Math.min(Math.max(120 / pairs.length, 0.16), 0.6); // a mesh must not hide the swarm
+  context.globalAlpha = Math.min(Math.max(120 / pairs.length, 0.16), COVERS.link); // a mesh must not hide the swarm
   context.lineWidth = 0.8;
   context.beginPath();
   for (let p = 0; p < pairs.length; p += 2) {
@@ -143,15 +143,15 @@ export function drawHalos(brush: Brush, moment: Moment): void {
   drawDiscs(brush, moment, (agent) => moment.frame.repulsion[agent], []);
 }
 
-export function drawTrails({ context, camera }: Brush, { scene, frame, x, y, past, shown }: Moment, size: number): void {
+export function drawTrails({ context, camera, theme }: Brush, { scene, frame, x, y, past, shown }: Moment, size: number): void {
   context.lineWidth = lineWidth(size);
   const stride = shown.length > MANY ? Math.max(Math.ceil(past.length / 3), 1) : 1;
   forEachFleet(scene, shown, (fleet, agents) => {
-    context.strokeStyle = fleetColor(styleOf(scene.fleets[fleet]));
+    context.strokeStyle = lineColor(styleOf(scene.fleets[fleet]), theme, COVERS.trail);
     for (let age = stride; age <= past.length; age += stride) {
       const old = past[past.length - age];
       const next = age === stride ? { x, y } : past[past.length - age + stride];
-      context.globalAlpha = 0.45 * (1 - (age - 1) / past.length) + 0.04;
+      context.globalAlpha = COVERS.trail * (1 - (age - 1) / past.length) ** 1.5 + 0.03;
       context.beginPath();
       for (const agent of agents) {
         if (!isAlive(frame, agent) || !isAlive(old, agent)) continue;
@@ -164,12 +164,12 @@ export function drawTrails({ context, camera }: Brush, { scene, frame, x, y, pas
   context.globalAlpha = 1;
 }
 
-export function drawHeadings({ context, camera }: Brush, { scene, frame, x, y, shown }: Moment, size: number): void {
+export function drawHeadings({ context, camera, theme }: Brush, { scene, frame, x, y, shown }: Moment, size: number): void {
   if (frame.lean) return;
   context.lineWidth = lineWidth(size);
   forEachFleet(scene, shown, (fleet, agents) => {
     const reach = (2.6 * size) / scene.fleets[fleet].max_speed;
-    context.strokeStyle = fleetColor(styleOf(scene.fleets[fleet]));
+    context.strokeStyle = lineColor(styleOf(scene.fleets[fleet]), theme);
     context.beginPath();
     for (const agent of agents) {
       if (!isAlive(frame, agent)) continue;
@@ -197,8 +197,8 @@ export function drawAgents({ context, camera, theme }: Brush, { scene, frame, x,
         traceMarker(context, marker, camera.toX(x[agent]), camera.toY(y[agent]), radius * (onTarget ? 1.2 : 1));
       }
       context.fill();
-      context.strokeStyle = onTarget ? theme.ink : theme.rim;
-      context.lineWidth = onTarget ? Math.max(1.4, size / 2.6) : Math.max(0.5, size / 8);
+      context.strokeStyle = onTarget ? theme.ink : rimColor(styleOf(scene.fleets[fleet]), theme);
+      context.lineWidth = onTarget ? Math.max(1.4, size / 2.6) : Math.max(0.6, size / 6);
       context.lineJoin = "miter";
       context.stroke();
     }
@@ -209,7 +209,7 @@ export function drawAgents({ context, camera, theme }: Brush, { scene, frame, x,
     }
     context.fillStyle = theme.water;
     context.fill();
-    context.strokeStyle = fleetColor(styleOf(scene.fleets[fleet]));
+    context.strokeStyle = lineColor(styleOf(scene.fleets[fleet]), theme);
     context.lineWidth = Math.max(1.4, size / 4);
     context.stroke();
   });
@@ -220,7 +220,7 @@ type Places = Pick<Moment, "frame" | "x" | "y" | "shown">;
 
 function drawGone({ context, camera, theme }: Brush, { frame, x, y, shown }: Places, r: number): void {
   context.strokeStyle = theme.muted;
-  context.globalAlpha = 0.75;
+  context.globalAlpha = COVERS.gone;
   context.lineWidth = 1.5;
   context.beginPath();
   for (const agent of shown) {
@@ -239,7 +239,7 @@ function drawGone({ context, camera, theme }: Brush, { frame, x, y, shown }: Pla
 /** A ring around one agent, and lines to those that it hears. */
 export function drawPicked({ context, camera, theme }: Brush, { x, y }: Moment, agent: number, heard: Pairs, size: number): void {
   context.strokeStyle = theme.ink;
-  context.globalAlpha = 0.55;
+  context.globalAlpha = COVERS.link;
   context.lineWidth = 1;
   context.beginPath();
   for (let p = 0; p < heard.length; p += 2) {
@@ -312,10 +312,10 @@ function drawDiscs(
       context.moveTo(px + r, py);
       context.arc(px, py, r, 0, TURN);
     }
-    context.fillStyle = context.strokeStyle = fleetColor(styleOf(scene.fleets[fleet]));
+    context.fillStyle = context.strokeStyle = lineColor(styleOf(scene.fleets[fleet]), theme, COVERS.disc);
     context.globalAlpha = theme.dark ? 0.16 : 0.1;
     if (shown.length <= MANY) context.fill();
-    context.globalAlpha = theme.dark ? 0.6 : 0.4;
+    context.globalAlpha = shown.length <= MANY ? COVERS.disc : 0.4;
     context.lineWidth = 0.9;
     context.setLineDash(dash);
     context.stroke();

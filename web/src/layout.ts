@@ -25,10 +25,11 @@ export interface Plan {
 const HEAD = 47; // [px]
 const BAR = 54;
 const AXES: Size = { width: 66, height: 48 };
-const CAPTION = 62; // what is shown now, and the legend
+const CAPTION = 44; // what is shown now, and the legend
 const GAP = 18;
 const STRIP = 200; // numbers in a row
 const LOW = 480; // a screen that is turned sideways
+const FINGERS = 60; // [px] that bars for them are higher
 const NARROW = 760;
 const DESK = 1100;
 const BETTER = 1.05; // what is less usual must give so much more water
@@ -51,7 +52,7 @@ export function arrange(window: Size, aspect: number, runs: number, panels: bool
   if (height < LOW && width >= 560) {
     return plan("short", 280, { width: width - GAP - 280, height: height - GAP }, Math.round(0.6 * width));
   }
-  const least = Math.max(0.33 * height, 230); // of what is under the water
+  const least = Math.max(0.33 * height, 230) + FINGERS; // of what is under the water
   const sheet = plan("sheet", 0, { width: width - GAP, height: Math.max(under - GAP - least, 200) });
   if (width < NARROW) return sheet;
   const below = plan("below", 336, { width: width - GAP - 336, height: under - GAP - STRIP });

@@ -1,5 +1,6 @@
 // One palette for canvas and page, that of shoal's figures (src/shoal/drawing/style.py): Okabe and Ito, 2008.
 
+import { contrast, LEAST, standsOut } from "./contrast";
 import { svg } from "./dom";
 
 export const FLEET_COLORS = ["#0072B2", "#56B4E9", "#009E73", "#CC79A7", "#F0E442", "#E69F00", "#000000"];
@@ -17,6 +18,9 @@ export interface Theme {
   water: string;
   outside: string;
   rim: string; // around markers
+  land: string;
+  shore: string;
+  current: string;
   secondRun: string;
 }
 
@@ -31,11 +35,26 @@ export function readTheme(): Theme {
     water: value("water"),
     outside: value("card"),
     rim: value("rim"),
+    land: value("land"),
+    shore: value("shore"),
+    current: value("current"),
     secondRun: value("second-run"),
   };
 }
 
 export const fleetColor = (fleet: number): string => FLEET_COLORS[fleet % FLEET_COLORS.length];
+/** How much of the water the strongest of these marks covers; with more of them they are weaker. */
+export const COVERS = { link: 0.8, trail: 0.85, disc: 0.8, gone: 0.85, track: 0.9 };
+
+/** Color of a fleet's lines, so that they are seen on the water; `covers`: see COVERS. */
+export const lineColor = (fleet: number, theme: Theme, covers = 1): string => standsOut(fleetColor(fleet), theme.water, covers);
+
+/** Around a fleet's markers: the theme's rim, or a darker shade of the fleet's own color where that is what is seen. */
+export function rimColor(fleet: number, theme: Theme): string {
+  const seen = contrast(theme.rim, theme.water) >= LEAST || contrast(fleetColor(fleet), theme.water) >= LEAST;
+  return seen ? theme.rim : lineColor(fleet, theme);
+}
+
 export const fleetMarker = (fleet: number): Marker => MARKERS[fleet % MARKERS.length];
 
 type Point = readonly [number, number];
