@@ -9,6 +9,7 @@ import { listen, type Key } from "./keyboard";
 import { Arrangement } from "./layout";
 import { Numbers, type RunNumbers } from "./numbers";
 import { readTheme, type Theme } from "./palette";
+import { showPlace } from "./place";
 import { attachPointer } from "./pointer";
 import type { Failure, Frame, Hello, Past, Request, Scene, Status } from "./protocol";
 import { Roll } from "./roll";
@@ -89,6 +90,7 @@ export class App implements Listener {
     mode.textContent = !this.source.live ? "replay" : hello.fleet ? "fleet" : hello.recording ? "recording" : "live";
     mode.dataset.mode = mode.textContent;
     for (const stage of this.stages) {
+      showPlace(stage);
       attachPointer(stage, {
         tool: () => this.swarm?.tool ?? "look",
         remove: (run, agent) => this.send({ do: "kill", run, agent }),
@@ -331,6 +333,8 @@ export class App implements Listener {
           key("s", "sensor discs", () => switches.toggle("sensors")),
           key("v", "headings", () => switches.toggle("headings")),
           key("p", "trails", () => switches.toggle("trails")),
+          key("c", "currents", () => switches.toggle("currents")),
+          key("o", "latitude and longitude", () => switches.toggle("graticule")),
           key("+ =", "nearer", () => this.zoom(1.25)),
           key("-", "farther", () => this.zoom(0.8)),
           key("0", "the whole area", () => this.zoom(0)),

@@ -34,10 +34,15 @@ export function drawWater({ context, camera, theme }: Brush, scene: Scene): void
   const { plot } = camera;
   context.fillStyle = theme.outside;
   context.fillRect(plot.left, plot.top, plot.width, plot.height);
-  const { width, height, half_x, half_y } = scene.area;
-  const edge = box(camera, width / 2, height / 2);
+  const edge = box(camera, scene.area.width / 2, scene.area.height / 2);
   context.fillStyle = theme.water;
   context.fillRect(...edge);
+}
+
+/** The edges of the arena, and how far agents may go. */
+export function drawEdges({ context, camera, theme }: Brush, scene: Scene): void {
+  const { width, height, half_x, half_y } = scene.area;
+  const edge = box(camera, width / 2, height / 2);
   context.strokeStyle = theme.muted;
   context.lineWidth = 1.2;
   context.strokeRect(...edge);

@@ -24,6 +24,8 @@ export class Legend {
       const disc = svg("circle", { r: 6, "fill-opacity": 0.22, fill: "currentColor", stroke: "currentColor" });
       this.add(glyph("target", TARGET_COLOR, disc, svg("path", { d: "M-3 0H3M0-3V3", stroke: "currentColor" })), words);
     }
+    const fastest = scene.geography?.currents?.fastest;
+    if (fastest !== undefined) this.add(glyph("current", "currentColor", svg("path", { d: "M-7 0H6M2-4L6 0L2 4" })), `current, up to ${short(fastest)} m/s`);
     this.gone.replaceChildren(glyph("gone", "currentColor", svg("path", { d: "M-4-4L4 4M-4 4L4-4" })), this.goneText);
     this.silent.replaceChildren(glyph("hollow", "currentColor", svg("circle", { r: 4.5 })), this.silentText);
     this.root.append(this.gone, this.silent, this.dots);

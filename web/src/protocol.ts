@@ -23,6 +23,32 @@ export interface Metric {
   high: number | null;
 }
 
+/** Where on Earth local meters are. */
+export interface Earth {
+  size: number; // [m]
+  lon: number[]; // (15) coefficients of x^i y^j in units of `size`, by i and then j, i + j <= 4 [deg]
+  lat: number[];
+  error: number; // [m] at most
+  lines: { words: string; meridian: boolean; x: number[]; y: number[] }[]; // [m]
+}
+
+export interface Currents {
+  times: number[]; // (T) [s] since the start
+  period: number | null; // [s] after which they come again
+  fastest: number; // [m/s]
+  apart: number; // [m] arrows
+  places: number[]; // (P x 2) [m]
+  values: number[]; // (T x P x 2) eastward and northward, % of the fastest
+}
+
+export interface Geography {
+  land: number[][]; // rings x, y, x, y, ... [m]
+  limits: number[][]; // of the search area
+  cells: number[][]; // land that only a grid knows: x, y, width, height [m]
+  earth: Earth | null;
+  currents: Currents | null;
+}
+
 export interface Scene {
   epoch: number;
   name: string;
@@ -42,6 +68,7 @@ export interface Scene {
   strategies: string; // of all fleets, in words
   conditions: string[]; // what disturbs the swarm, a sentence each
   events: [step: number, what: "lost" | "joined", agent: number][]; // as far as they are known, also those to come
+  geography: Geography | null;
   ends: number | null; // step from which no target will be there any more
   has_repulsion: boolean;
   has_links: boolean;

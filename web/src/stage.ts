@@ -4,6 +4,7 @@ import { Camera } from "./camera";
 import { Dots, inView, MARKED, reporting } from "./dots";
 import { el } from "./dom";
 import { count, fixed, time } from "./format";
+import { drawCurrents, drawGraticule, drawLand, drawScale } from "./geography";
 import * as layers from "./layers";
 import { Legend } from "./legend";
 import { heardBy, linkedPairs, type Pairs } from "./links";
@@ -18,6 +19,8 @@ export interface Look {
   sensors: boolean;
   headings: boolean;
   trails: boolean;
+  currents: boolean;
+  graticule: boolean;
 }
 
 export interface Point {
@@ -146,6 +149,11 @@ export class Stage {
     context.rect(plot.left, plot.top, plot.width, plot.height);
     context.clip();
     layers.drawWater(brush, scene);
+    const { geography } = scene;
+    if (geography?.currents && look.currents) drawCurrents(brush, geography, frame.step * scene.time_step);
+    if (geography) drawLand(brush, geography);
+    layers.drawEdges(brush, scene);
+    if (geography?.earth && look.graticule) drawGraticule(brush, geography.earth);
     if (look.sensors) layers.drawSensors(brush, moment);
     if (look.halos) layers.drawHalos(brush, moment);
     this.links = 0;
@@ -161,6 +169,7 @@ export class Stage {
     if (look.headings) layers.drawHeadings(brush, moment, size);
     layers.drawAgents(brush, moment, size);
     if (this.crosshair) layers.drawCrosshair(brush, this.crosshair);
+    drawScale(brush, scene);
     context.restore();
     layers.drawAxes(brush, scene, this.size.width < 480);
   }

@@ -11,6 +11,8 @@ const SWITCHES: { name: keyof Look; words: string; key: string }[] = [
   { name: "sensors", words: "Sensor discs", key: "S" },
   { name: "headings", words: "Headings", key: "V" },
   { name: "trails", words: "Trails", key: "P" },
+  { name: "currents", words: "Currents", key: "C" },
+  { name: "graticule", words: "Latitude and longitude", key: "O" },
 ];
 const KEPT = 512; // agents whose links the engine keeps
 const DETAILED = 10_000; // agents of whom frames say velocity and a_R
@@ -18,7 +20,7 @@ const MANY = 300; // agents from which links are a gray sheet unless asked for
 
 export class Switches {
   readonly root = el("section", { class: "card show", "aria-label": "Show" });
-  readonly look: Look = { links: true, halos: false, sensors: true, headings: true, trails: true };
+  readonly look: Look = { links: true, halos: false, sensors: true, headings: true, trails: true, currents: true, graticule: true };
   private readonly inputs = new Map<keyof Look, HTMLInputElement>();
   private asked = false; // for links or none
 
@@ -42,6 +44,12 @@ export class Switches {
     const tooMany = agents > DETAILED ? `sent of up to ${count(DETAILED)} buoys` : null;
     this.allow("headings", !tooMany, tooMany ?? "");
     this.allow("halos", !tooMany && scenes.some((scene) => scene.has_repulsion), tooMany ?? "this strategy has no a_R");
+    for (const [name, there] of [
+      ["currents", scenes.some(({ geography }) => geography?.currents)], ["graticule", scenes.some(({ geography }) => geography?.earth)],
+    ] as const) {
+      this.inputs.get(name)!.disabled = !there;
+      this.inputs.get(name)!.parentElement!.hidden = !there;
+    }
     const sensing = scenes.some((scene) => scene.fleets.some((fleet) => fleet.sensor_radius > 0));
     this.allow("sensors", sensing, "sensor radius 0 m: buoys detect by touch");
   }

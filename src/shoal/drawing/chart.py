@@ -6,8 +6,10 @@ import numpy as np
 
 from shoal.core.errors import ShoalError
 from shoal.core.geodesy import Frame
+from shoal.core.graticule import graticule
 from shoal.drawing.style import GRAY, INK
 from shoal.record.trajectory import Trajectory
+from shoal.run.arrows import arrow_places
 from shoal.run.sea import build_sea, flow_at
 from shoal.scenario.at_sea import OpenSea, open_sea
 from shoal.scenario.schema import Area, Scenario
@@ -16,7 +18,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 LAND, SHORE, WATER = "#d9d2c3", "#8c8069", "#7ba7bd"
-ARROWS = 13  # along the longer side
 MOST_CELLS = 700  # of the raster along a side that is drawn
 
 
@@ -60,10 +61,7 @@ class CurrentArrows:
         self._field = build_sea(scenario, opened).currents
         self._time_step = scenario.time_step
         area = scenario.area
-        apart = max(area.width, area.height) / ARROWS
-        x, y = (_middles(side, apart) for side in (area.width, area.height))
-        places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-        self._places = places if opened.land is None else places[_at_sea(opened.land, places)]
+        self._places, apart = arrow_places(area, opened.land)
         duration = scenario.steps * scenario.time_step
         speeds = [np.hypot(*self._flow(duration * share).T).max(initial=0.0) for share in np.linspace(0.0, 1.0, 9)]
         self.fastest = float(max(speeds))
@@ -95,76 +93,20 @@ def current_arrows(axes: "Axes", scenario: Scenario) -> CurrentArrows | None:
     return CurrentArrows(axes, scenario, opened)
 
 
-def _middles(side: float, apart: float) -> Any:
-    count = max(1, round(side / apart))
-    return side * ((np.arange(count) + 0.5) / count - 0.5)
-
-
-def _at_sea(raster: Any, places: Any) -> Any:
-    """Which places (P, 2) are off the shore by a cell."""
-    rows, columns = raster.distance.shape
-    i = np.clip(np.rint((places[:, 0] - raster.x0) / raster.cell).astype(int), 0, columns - 1)
-    j = np.clip(np.rint((places[:, 1] - raster.y0) / raster.cell).astype(int), 0, rows - 1)
-    return raster.distance[j, i] > raster.cell
-
-
 def draw_graticule(axes: "Axes", area: Area) -> None:
     """Draw meridians and parallels at round degrees and minutes, with their numbers at the south and east edges."""
     assert area.origin is not None
-    frame = Frame(area.origin)
     half_x, half_y = area.width / 2, area.height / 2
-    edge_x, edge_y = np.array([-1.0, 0.0, 1.0] * 3) * half_x, np.repeat([-1.0, 0.0, 1.0], 3) * half_y
-    lon, lat = (np.asarray(each) for each in frame.geographic(edge_x, edge_y))
-    lon = area.origin[0] + (lon - area.origin[0] + 180.0) % 360.0 - 180.0
     style: dict[str, Any] = {"color": GRAY, "linewidth": 0.4, "linestyle": (0, (1, 3)), "zorder": 0.55}
     box = {"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
     labels: dict[str, Any] = {"fontsize": 6.5, "color": INK, "textcoords": "offset points", "bbox": box, "zorder": 7}
-    for degree in _round_degrees(lon.min(), lon.max()):
-        x, y = frame.local(np.full(41, degree), np.linspace(lat.min(), lat.max(), 41))
-        inside = (np.abs(x) <= half_x) & (np.abs(y) <= half_y)
-        axes.plot(x[inside], y[inside], **style)
-        bottom = float(np.interp(-half_y, y, x))
-        if -0.55 * half_x < bottom < 0.8 * half_x:  # beside the scale bar
-            axes.annotate(degrees_text(degree, "EW"), (bottom, -half_y), (2, 2), ha="left", va="bottom", **labels)
-    for degree in _round_degrees(lat.min(), lat.max()):
-        x, y = frame.local(np.linspace(lon.min(), lon.max(), 41), np.full(41, degree))
-        inside = (np.abs(x) <= half_x) & (np.abs(y) <= half_y)
-        axes.plot(x[inside], y[inside], **style)
-        right = float(np.interp(half_x, x, y))
-        if abs(right) < 0.97 * half_y:
-            axes.annotate(degrees_text(degree, "NS"), (half_x, right), (-2, 1), ha="right", va="bottom", **labels)
+    for line in graticule(Frame(area.origin), half_x, half_y):
+        axes.plot(line.x, line.y, **style)
+        if line.meridian and -0.55 * half_x < line.edge < 0.8 * half_x:  # beside the scale bar
+            axes.annotate(line.words, (line.edge, -half_y), (2, 2), ha="left", va="bottom", **labels)
+        elif not line.meridian and abs(line.edge) < 0.97 * half_y:
+            axes.annotate(line.words, (half_x, line.edge), (-2, 1), ha="right", va="bottom", **labels)
     axes.annotate(
         "N", (0.985, 0.985), (0.985, 0.9), xycoords="axes fraction", textcoords="axes fraction", fontsize=8, color=INK,
         ha="center", va="center", arrowprops={"arrowstyle": "-|>", "color": INK}, zorder=8, gid="north",
     )  # fmt: skip
-
-
-_STEPS = (
-    10.0,
-    5.0,
-    2.0,
-    1.0,
-    0.5,
-    1 / 6,
-    1 / 12,
-    1 / 30,
-    1 / 60,
-    1 / 120,
-    1 / 300,
-    1 / 600,
-    1 / 1200,
-    1 / 3000,
-)  # [deg]
-
-
-def _round_degrees(low: float, high: float) -> list[float]:
-    """Round degrees or minutes between two, four at most but three where there can be."""
-    step = next((each for each in _STEPS if (high - low) / each >= 2.5), _STEPS[-1])
-    return [step * number for number in range(int(np.ceil(low / step)), int(np.floor(high / step)) + 1)]
-
-
-def degrees_text(degree: float, letters: str) -> str:
-    """4°36′E: degrees and minutes, with the digits that round ones need."""
-    degree = (degree + 180.0) % 360.0 - 180.0 if letters == "EW" else degree
-    whole, minutes = divmod(round(abs(degree) * 60.0, 3), 60.0)
-    return f"{whole:.0f}°{minutes:g}′".replace("°0′", "°") + (letters[0] if degree >= 0 else letters[1])

@@ -74,15 +74,11 @@ def _to_axes(read: Any, frame: Frame | None, size: float) -> Any:
     ------
     ScenarioError : the arena is so large that they would be wrong
     """
-    coefficients = np.zeros((2, 15))
     if read.metric or frame is None:
+        coefficients = np.zeros((2, 15))
         coefficients[0, 5] = coefficients[1, 1] = size  # x and y themselves
         return coefficients
-    places, between = _places(_SAMPLES), _places(_SAMPLES + 6)
-    wanted, true = (_geographic(frame, each, size) for each in (places, between))
-    coefficients[:] = np.linalg.lstsq(_powers(places), wanted, rcond=None)[0].T
-    meters = np.array([111320.0 * np.cos(np.radians(frame.origin[1])), 111320.0])  # of a degree, about
-    worst = np.abs((_powers(between) @ coefficients.T - true) * meters).max()
+    coefficients, worst = places_on_earth(frame, size)
     if worst > EXACT:
         raise ScenarioError(
             "area",
@@ -91,6 +87,23 @@ def _to_axes(read: Any, frame: Frame | None, size: float) -> Any:
             "make it smaller",
         )
     return coefficients
+
+
+def places_on_earth(frame: Frame, size: float) -> tuple[Any, float]:
+    """Return coefficients (2, 15) of polynomials of local x and y, and how far off they are at most [m].
+
+    They give longitude (continuous around that of the origin) and latitude [deg] of x and y in units of `size`:
+    the sum of c x^i y^j, by i and then j, i + j <= 4.
+
+    Parameters
+    ----------
+    size : [m] they are good from -size to size, along x and along y
+    """
+    places, between = _places(_SAMPLES), _places(_SAMPLES + 6)
+    wanted, true = (_geographic(frame, each, size) for each in (places, between))
+    coefficients = np.ascontiguousarray(np.linalg.lstsq(_powers(places), wanted, rcond=None)[0].T)
+    meters = np.array([111320.0 * np.cos(np.radians(frame.origin[1])), 111320.0])  # of a degree, about
+    return coefficients, float(np.abs((_powers(between) @ coefficients.T - true) * meters).max())
 
 
 def _places(count: int) -> Any:

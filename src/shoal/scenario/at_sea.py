@@ -27,6 +27,7 @@ class OpenSea:
     currents, wind : on their grids; None where a flow has a formula, or there is none
     land : signed distances to the shore; None on open water
     shore : the same, of land and of all that is outside the search area
+    coast, limits : the polygons of land and of the search area, as far as they are given as such
     notes : what was assumed or dropped
     digest : of all that was read from files; None if there were none
     """
@@ -38,6 +39,8 @@ class OpenSea:
     shore: "Raster | None"
     notes: tuple[str, ...]
     digest: str | None
+    coast: "tuple[Polygon, ...]" = ()
+    limits: "tuple[Polygon, ...]" = ()
 
 
 def open_sea(scenario: Scenario) -> OpenSea | None:
@@ -114,7 +117,8 @@ def _read(scenario: Scenario) -> OpenSea:
         if limits is not None:
             shore = land_raster(coast, without, frame, half_x, half_y, sea.cell, limits)
     digest = hashlib.sha256("".join(digests).encode()).hexdigest()[:16] if digests else None
-    return OpenSea(frame, currents, wind, land, shore, tuple(notes), digest)
+    polygons = tuple(coast or ()), tuple(limits or ())
+    return OpenSea(frame, currents, wind, land, shore, tuple(notes), digest, *polygons)
 
 
 def _gridded(

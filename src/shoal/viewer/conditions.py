@@ -58,7 +58,7 @@ def _of_network(scenario: Scenario) -> Iterator[str]:
     if network.adaptive:
         yield f"k adapts, from {network.adaptive.fewest} to {network.adaptive.most}"
     if network.range is not None:
-        yield f"nobody is heard beyond {network.range:,.4g} m"
+        yield f"nobody is heard beyond {_length(network.range)}"
     if network.loss:
         yield f"{_percent(network.loss)} of the reports are lost"
     if network.delay:
@@ -102,6 +102,10 @@ def _of_disturbance(each: Any) -> str:
     until = "" if each.until is None else f" to {each.until:,.4g} s"
     when = f" from {each.since:,.4g} s{until}" if each.since or until else ""
     return f"{each.kind}{f' of {each.fleet}' if each.fleet else ''}{when}"
+
+
+def _length(meters: float) -> str:
+    return f"{meters / 1000.0:.4g} km" if meters >= 2000.0 else f"{meters:,.4g} m"
 
 
 def _percent(share: float) -> str:

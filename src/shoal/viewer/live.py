@@ -19,6 +19,7 @@ from shoal.strategies.contract import RESERVED
 from shoal.viewer.conditions import comings_and_goings
 from shoal.viewer.frame import FULL, pack
 from shoal.viewer.gauging import Gauging
+from shoal.viewer.geography import geography_of
 from shoal.viewer.scene import as_json, scene_of
 
 Table = dict[str, Any]
@@ -159,6 +160,7 @@ class LiveRun:
             since=simulation.number,
             events=comings_and_goings(simulation.swarm.joins[:agents], simulation.swarm.leaves[:agents]),
             ends=self.ends,
+            geography=geography_of(simulation.scenario),
         )
         self.message = as_json({"type": "scene", "run": self.place, "scene": scene})
 

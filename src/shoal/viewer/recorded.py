@@ -10,6 +10,7 @@ from shoal.record.frames import Moment, engaged_by_frame, moment_of
 from shoal.record.record import Record
 from shoal.viewer.conditions import kept_comings_and_goings
 from shoal.viewer.frame import FULL, RECENT, Gauges, pack
+from shoal.viewer.geography import geography_of
 from shoal.viewer.scene import scene_of
 
 _SHOWN = (  # besides those of installed packages
@@ -30,6 +31,7 @@ def recorded_scene(record: Record, run: int) -> dict[str, Any]:
             kept.memory,
             has_links=kept.links.shape[2] > 0,
             events=kept_comings_and_goings(kept.step, kept.alive),
+            geography=geography_of(record.scenario),
         ),
         "metrics": [
             {

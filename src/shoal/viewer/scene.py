@@ -18,7 +18,7 @@ _EXACT = 2**53  # beyond, JavaScript's numbers have gaps
 
 def scene_of(
     scenario: Scenario, memory: Iterable[str], *, has_links: bool, epoch: int = 0, since: int = 0,
-    events: Sequence[Event] = (), ends: int | None = None,
+    events: Sequence[Event] = (), ends: int | None = None, geography: dict[str, Any] | None = None,
 ) -> dict[str, Any]:  # fmt: skip
     """Return the scene of a scenario, SI and defaults filled in.
 
@@ -29,6 +29,7 @@ def scene_of(
     epoch, since : number of this scene, and the step that it begins with
     events : who joins and who is lost, as far as it is known
     ends : step from which no target will be there any more, if there is one
+    geography : see geography.py
     """
     area, strategy, seed = scenario.area, scenario.strategy, scenario.seed
     return {
@@ -71,6 +72,7 @@ def scene_of(
         "conditions": conditions_of(scenario),
         "events": events,
         "ends": ends,
+        "geography": geography,
         "has_repulsion": REPULSION in memory,
         "has_links": has_links,
     }
