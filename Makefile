@@ -84,7 +84,7 @@ docs-open: docs $(VENV)/.installed
 	$(BIN)/python docs/tools/open_site.py site
 
 web:
-	cd web && npm ci --no-audit --no-fund && npm test && npm run build
+	cd web && npm ci --no-audit --no-fund && npm run lint && npm test && npm run build
 
 licenses: $(VENV)/.installed
 	$(BIN)/python release/licenses.py

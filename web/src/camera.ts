@@ -15,6 +15,12 @@ interface Size {
 const PAD = 0.025; // of the area's longer side, around it
 const MOST_ZOOM = 60;
 
+/** An area [m] with the little around it that is seen, too. */
+export function padded({ width, height }: Size): Size {
+  const pad = 2 * PAD * Math.max(width, height);
+  return { width: width + pad, height: height + pad };
+}
+
 export class Camera {
   /** Where on the canvas the water is seen [px]. */
   plot: Box = { left: 0, top: 0, width: 1, height: 1 };
@@ -26,8 +32,7 @@ export class Camera {
 
   /** Fit an area [m] into a canvas [px], inside margins for the axes. */
   fit(area: Size, canvas: Size, margins: { left: number; right: number; top: number; bottom: number }): void {
-    const pad = 2 * PAD * Math.max(area.width, area.height);
-    const seen = { width: area.width + pad, height: area.height + pad };
+    const seen = padded(area);
     const room = {
       width: Math.max(canvas.width - margins.left - margins.right, 20),
       height: Math.max(canvas.height - margins.top - margins.bottom, 20),

@@ -45,7 +45,12 @@ export function drawGraticule({ context, camera, theme }: Brush, { lines }: Eart
   context.lineWidth = 0.7;
   context.setLineDash([1, 4]);
   context.beginPath();
-  for (const { x, y } of lines) x.forEach((each, n) => (n ? context.lineTo : context.moveTo).call(context, camera.toX(each), camera.toY(y[n]!)));
+  for (const { x, y } of lines) {
+    for (const [n, each] of x.entries()) {
+      if (n === 0) context.moveTo(camera.toX(each), camera.toY(y[n]!));
+      else context.lineTo(camera.toX(each), camera.toY(y[n]!));
+    }
+  }
   context.stroke();
   context.setLineDash([]);
   context.font = "10.5px system-ui, sans-serif";

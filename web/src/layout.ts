@@ -1,5 +1,6 @@
 // Where water, numbers and controls lie: the arrangement in which the water is largest, for any screen and arena.
 
+import { padded } from "./camera";
 import { byId, el } from "./dom";
 import type { Scene } from "./protocol";
 
@@ -27,6 +28,7 @@ const BAR = 54;
 const AXES: Size = { width: 66, height: 48 };
 const CAPTION = 44; // what is shown now, and the legend
 const GAP = 18;
+const SLACK = 8;
 const STRIP = 200; // numbers in a row
 const LOW = 480; // a screen that is turned sideways
 const FINGERS = 60; // [px] that bars for them are higher
@@ -44,7 +46,7 @@ export function arrange(window: Size, aspect: number, runs: number, panels: bool
     const spare = width - GAP - columns * (map.width + AXES.width);
     const side = widest > 0 ? Math.round(Math.min(Math.max(spare, beside), widest)) : beside;
     const rows = stacked ? runs : 1;
-    return { layout, side, stacked, map, stages: Math.round(rows * (map.height + AXES.height + CAPTION) + GAP) };
+    return { layout, side, stacked, map, stages: Math.round(rows * (map.height + AXES.height + CAPTION + SLACK) + GAP) };
   };
   const beside = (least: number, layout: Layout, widest: number): Plan =>
     plan(layout, least, { width: width - GAP - least, height: under - GAP }, widest);
@@ -98,7 +100,10 @@ export class Arrangement {
   /** Learn what is to be seen. */
   describe(scenes: Scene[], runs: number): void {
     const [scene] = scenes;
-    if (scene) this.aspect = scene.area.width / scene.area.height;
+    if (scene) {
+      const { width, height } = padded(scene.area);
+      this.aspect = width / height;
+    }
     this.runs = runs;
     this.apply();
   }

@@ -3,7 +3,7 @@
 import { drawLines, drawPhi, type Line } from "./chart";
 import { el } from "./dom";
 import { count, estimate, fixed } from "./format";
-import { History, recorded, type Series } from "./history";
+import { type History, recorded, type Series } from "./history";
 import { TARGET_COLOR, type Theme } from "./palette";
 import type { Frame, Metric, Scene } from "./protocol";
 

@@ -29,9 +29,11 @@ export function makeFrame(made: Made): ArrayBuffer {
   view.setUint32(8, agents, true);
   view.setUint32(12, targets.length, true);
   view.setUint32(16, links[0]?.length ?? 0, true);
-  (made.measures ?? []).forEach((value, n) => view.setFloat32(20 + 4 * n, value, true));
+  for (const [n, value] of (made.measures ?? []).entries()) view.setFloat32(20 + 4 * n, value, true);
   let at = 84;
-  const floats = (values: number[]): void => values.forEach((value) => (view.setFloat32(at, value, true), (at += 4)));
+  const floats = (values: number[]): void => {
+    for (const value of values) (view.setFloat32(at, value, true), (at += 4));
+  };
   floats(x);
   floats(made.y ?? x.map(() => 0));
   for (let n = 0; n < (lean ? 0 : 3); n++) floats(x.map((_, agent) => 10 * n + agent));

@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from shoal.core.errors import ShoalError
 from shoal.core.geodesy import Frame
-from shoal.core.graticule import graticule
+from shoal.core.graticule import Line, graticule
 from shoal.run.arrows import ARROWS, arrow_places
 from shoal.run.sea import EXACT, build_sea, flow_at, places_on_earth
 from shoal.scenario.at_sea import OpenSea, open_sea
@@ -23,7 +23,7 @@ BEYOND = 1.1  # of half the longer side: as far as places are known on Earth
 
 
 def geography_of(scenario: Scenario) -> dict[str, Any] | None:
-    """Return what the page shows of the place and the water (docs/reference/view-protocol.md); None if nothing is known.
+    """Return what the page shows of place and water (docs/reference/view-protocol.md); None where nothing is known.
 
     A record does not hold the files of its sea: where they are gone, what they held is left out.
     """
@@ -52,14 +52,15 @@ def _known(text: str, key: _Key) -> dict[str, Any]:
         opened = open_sea(scenario)
     except ShoalError:
         opened = None
+    coast, limits = (opened.coast, opened.limits) if opened else ((), ())
     fine = max(scenario.area.width, scenario.area.height) / FINENESS
     return {
-        "land": [_thinned(ring, fine) for each in (opened.coast if opened else ()) for ring in (each.shell, *each.holes)],
-        "limits": [_thinned(each.shell, fine) for each in (opened.limits if opened else ())],
+        "land": [_thinned(ring, fine) for each in coast for ring in (each.shell, *each.holes)],
+        "limits": [_thinned(each.shell, fine) for each in limits],
         "cells": _cells(opened, scenario.area),
         "earth": _earth(scenario.area),
         "currents": _currents(scenario, opened),
-    }  # fmt: skip
+    }
 
 
 def _thinned(ring: npt.NDArray[np.float64], fine: float) -> list[float]:
@@ -83,10 +84,10 @@ def _cells(opened: OpenSea | None, area: Area) -> list[list[float]]:
     side = raster.cell * every
     edges = np.diff(np.pad(land, ((0, 0), (1, 1))).astype(np.int8), axis=1)
     begin, end = np.argwhere(edges == 1), np.argwhere(edges == -1)
-    return [
-        [round(raster.x0 + i * side - side / 2, 1), round(raster.y0 + j * side - side / 2, 1), round((k - i) * side, 1), side]
-        for (j, i), (_, k) in zip(begin.tolist(), end.tolist(), strict=True)
-    ]  # fmt: skip
+    west, south = raster.x0 - side / 2, raster.y0 - side / 2
+    rows = zip(begin.tolist(), end.tolist(), strict=True)
+    cells = [(west + i * side, south + j * side, (k - i) * side, side) for (j, i), (_, k) in rows]
+    return np.round(cells, 1).tolist()  # type: ignore[no-any-return]
 
 
 def _earth(area: Area) -> dict[str, Any] | None:
@@ -101,18 +102,18 @@ def _earth(area: Area) -> dict[str, Any] | None:
     coefficients, worst = places_on_earth(frame, size)
     if not worst <= EXACT:
         return None
-    lines = graticule(frame, area.width / 2, area.height / 2)
     return {
         "size": size,
         "lon": coefficients[0].tolist(),
         "lat": coefficients[1].tolist(),
         "error": worst,
-        "lines": [
-            {"words": each.words, "meridian": each.meridian, "x": np.round(each.x, 1).tolist(), "y": np.round(each.y, 1).tolist()}
-            for each in lines
-            if each.x.size
-        ],
-    }  # fmt: skip
+        "lines": [_told(line) for line in graticule(frame, area.width / 2, area.height / 2) if line.x.size],
+    }
+
+
+def _told(line: Line) -> dict[str, Any]:
+    x, y = (np.round(each, 1).tolist() for each in (line.x, line.y))
+    return {"words": line.words, "meridian": line.meridian, "x": x, "y": y}
 
 
 def _currents(scenario: Scenario, opened: OpenSea | None) -> dict[str, Any] | None:
