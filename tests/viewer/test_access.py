@@ -133,7 +133,7 @@ class TestTheKeyboard:
             page.wait_for_function("() => !shoal.playing()")
         elif name.startswith("Restart"):
             page.keyboard.press("ArrowRight")  # from step 0 there is no way back
-            page.wait_for_function("() => shoal.step() > 0")
+            page.wait_for_function("() => !document.querySelector('[aria-label^=\"One step back\"]').disabled")
         elif name.startswith("Panels") or page.evaluate("document.activeElement.ariaExpanded") == "false":
             page.keyboard.press("Enter")
 
