@@ -12,7 +12,7 @@ from site_notebook import notebook_page
 from site_sources import folder_page, source_page
 
 ROOT = Path(__file__).resolve().parents[2]
-ASSETS = ("site.css", "iframe-worker.js")  # named in zensical.toml
+ASSETS = ("site.css", "site.js", "iframe-worker.js")  # named in zensical.toml
 EMBED = re.compile(r"^<!-- embed (\S+) -->$", re.MULTILINE)  # shown as it is in the site, and nowhere else
 BEGINNINGS = ("- ", "|")  # of lists and tables
 CELL = re.compile(r"`[^`\n]*`")

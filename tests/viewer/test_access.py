@@ -6,8 +6,14 @@ import pytest
 
 from browsing import DESK, PHONE, pause
 from scenarios import scenario
+from searches import runs_of
+from shoal.experiments.fleet_range import FleetRange
+from shoal.paper.report import write_report
+from shoal.paper.results import Claim, Reproduction
 from shoal.run.simulate import simulate
 from shoal.scenario.load import read_table
+from shoal.study.design import DesignOptions, designed
+from shoal.study.design_page import page as page_to_buy_by
 
 pytest.importorskip("starlette", reason="the viewer's libraries are not installed")
 pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
@@ -33,6 +39,22 @@ def wide():
         yield address
 
 
+@pytest.fixture
+def open_file(browser):
+    """Open a file that is no page of the viewer."""
+    contexts = []
+
+    def open_(file):
+        contexts.append(browser.new_context(viewport=PHONE, bypass_csp=True))
+        page = contexts[-1].new_page()
+        page.goto(file.as_uri())
+        return page
+
+    yield open_
+    for context in contexts:
+        context.close()
+
+
 def findings(page):
     """What axe-core finds, in words."""
     page.evaluate(AXE.read_text(encoding="utf-8"))
@@ -53,6 +75,25 @@ class TestAxeFindsNothing:
     def test_on_a_phone_and_on_a_low_wide_arena(self, open_page, wide):
         for viewport in (DESK, PHONE, {"width": 844, "height": 390}):
             assert findings(open_page(wide, viewport, bypass_csp=True)) == []
+
+    def test_on_the_report_of_a_reproduction(self, open_file, tmp_path):
+        claim = Claim("C3", "k* is about 18", "k* is 18.2", 18.2, 17.1, 19.3, unit="k", figure="tot_k", verdict="holds")
+        found = Reproduction(
+            "oceans2020", False, 100_000, 5, [{"fast": 15, "run": 0, "status": "done"}], [], claims=[claim], figures=[],
+            tables={"peaks": [{"fast": 15, "k_star": 18.2}]}, command="shoal reproduce", versions={}, seconds=1.0,
+        )  # fmt: skip
+        assert findings(open_file(write_report(found, tmp_path / "report"))) == []
+
+    def test_on_the_page_of_a_design(self, open_file, tmp_path):
+        def value(scenario, run):
+            return sum(fleet.count * fleet.max_speed for fleet in scenario.fleets) / 100.0
+
+        ranges = [FleetRange("BoB-1", 0, 5, 3), FleetRange("BoB-0", 0, 5, 1)]
+        options = DesignOptions(trials=6, runs=2, final_runs=2)
+        found = designed("oceans2020", (ranges, []), {"steps": 50}, options, executor=runs_of(value), report=None)
+        file = tmp_path / "buy.html"
+        file.write_text(page_to_buy_by("oceans2020", found.result, "data:,"), encoding="utf-8")
+        assert findings(open_file(file)) == []
 
     def test_on_a_replay(self, open_page, tmp_path):
         file = tmp_path / "run.html"

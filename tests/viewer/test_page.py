@@ -1,6 +1,7 @@
 """The page's files, and all of it in one."""
 
 import base64
+import gzip
 import hashlib
 import json
 import re
@@ -8,7 +9,9 @@ import re
 import pytest
 
 from shoal.core.errors import ShoalError
-from shoal.viewer.page import _read, inline_page
+from shoal.viewer.page import _read, assets, inline_page
+
+HEAVIEST = 60_000  # bytes of the page as it comes, compressed
 
 HOSTILE = "</script><script>alert(1)</script><!--<script>"
 
@@ -63,6 +66,10 @@ class TestInlinePage:
         monkeypatch.setitem(small_page, "index.html", "<html><head></head><body></body></html>")
         with pytest.raises(ShoalError, match="build the page again"):
             inline_page({}, b"")
+
+
+def test_the_page_is_light():
+    assert sum(len(gzip.compress(each.content, 9)) for each in assets().values()) <= HEAVIEST
 
 
 def test_a_page_that_is_not_built_is_one_sentence():

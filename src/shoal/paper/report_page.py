@@ -42,8 +42,8 @@ def page(reproduction: Reproduction, pictures: Sequence[Picture], stores: Sequen
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f'<link rel="icon" href="data:,">\n<title>{escape(title)}</title>\n<style>{CSS}</style>\n</head>\n<body>\n'
         f'<header>\n<h1>{escape(title)}</h1>\n<p class="lead">{escape(source)}</p>\n</header>\n'
-        f"{_warning(reproduction)}{_summary(reproduction)}{_facts(reproduction)}"
-        f'<nav aria-label="Contents">{links}</nav>\n<main>\n{body}</main>\n</body>\n</html>\n'
+        f"<main>\n{_warning(reproduction)}{_summary(reproduction)}{_facts(reproduction)}"
+        f'<nav aria-label="Contents">{links}</nav>\n{body}</main>\n</body>\n</html>\n'
     )
 
 
@@ -115,7 +115,7 @@ def _picture(reproduction: Reproduction, picture: Picture) -> str:
     wide = " wide" if pixels > _NARROW else ""
     return (
         f'<figure id="figure-{name}" class="plot{wide}">\n<h3>{escape(figure.title)}</h3>\n'
-        f'<div class="scroll"><img src="{picture.source}" width="{pixels:.0f}" '
+        f'<div class="scroll" tabindex="0"><img src="{picture.source}" width="{pixels:.0f}" '
         f'height="{picture.height * _PIXELS:.0f}" alt="{escape(figure.title)}"></div>\n'
         f"<figcaption>{escape(figure.caption)} "
         f'<span class="note">{read}Every plotted number: '

@@ -76,8 +76,8 @@ def page(scenario: str, result: FleetFront, picture: str) -> str:
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n<meta name="generator" content="shoal">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n<link rel="icon" href="data:,">\n'
-        f"<title>{_text(title)}</title>\n<style>{CSS}</style>\n</head>\n<body>\n<h1>{_text(title)}</h1>\n"
-        f'<p class="soft">{_text(search.scenario.description)}</p>\n<main>\n<ul>{told}</ul>\n'
+        f"<title>{_text(title)}</title>\n<style>{CSS}</style>\n</head>\n<body>\n<header>\n<h1>{_text(title)}</h1>\n"
+        f'<p class="soft">{_text(search.scenario.description)}</p>\n</header>\n<main>\n<ul>{told}</ul>\n'
         f'<img src="{picture}" alt="{_text(_described(result))}">\n{_table(result)}\n'
         f'<h2>How this was found</h2>\n<p class="soft">{_text(method)}</p>\n<p class="soft">{_text(facts)}</p>\n'
         "</main>\n</body>\n</html>\n"
@@ -89,7 +89,7 @@ def _table(result: FleetFront) -> str:
     kept = shortened(result, ROWS)
     left = len(result.front) - sum(each.on_front for each in kept)
     titles = [search.less.words, *names_of(result), *(_field(each.field) for each in search.variables)]
-    head = "".join(f"<th>{_text(title)}</th>" for title in [*titles, search.more.words, ""])
+    head = "".join(f"<th>{_text(title)}</th>" for title in [*titles, search.more.words, "remark"])
     values = {id(each): {**search.start, **each.point} for each in kept}
     rows = "".join(
         f"<tr{' class=own' if each.present else ''}>"
@@ -106,7 +106,9 @@ def _table(result: FleetFront) -> str:
     )  # fmt: skip
     more = f'<p class="soft">{left} more fleets of the front lie between these.</p>' if left else ""
     return (
-        f"<h2>The front: no fleet that was found gives more for less</h2>\n<div class=scroll><table><thead><tr>{head}"
+        f"<h2>The front: no fleet that was found gives more for less</h2>\n"
+        f'<div class="scroll" tabindex="0" role="region" aria-label="The front as a table">'
+        f"<table><thead><tr>{head}"
         f"</tr></thead><tbody>{rows}</tbody></table></div>{more}"
     )
 
