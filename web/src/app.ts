@@ -240,6 +240,7 @@ export class App implements Listener {
     else if (this.screenTheme === null) delete dataset.theme;
     else dataset.theme = this.screenTheme;
     this.refresh();
+    if (this.hello_) this.numbers.draw(this.theme, this.runs, this.status_?.last ?? 0);
     for (const stage of this.stages) {
       stage.lieOnPaper(printing);
       stage.draw(performance.now(), this.switches.look, this.theme);

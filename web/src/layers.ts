@@ -69,8 +69,9 @@ export function drawAxes({ context, camera, theme }: Brush, scene: Scene, compac
   const [south, north] = visible(camera.fromY(bottom), camera.fromY(plot.top), height / 2);
   const span = Math.max(east - west, north - south) / scale;
   const most = compact ? 5 : 8;
-  const across = ticks(west / scale, east / scale, (most * (east - west)) / scale / span);
-  const up = ticks(south / scale, north / scale, (most * (north - south)) / scale / span);
+  const about = (extent: number): number => Math.max((most * extent) / scale / span, 2.5); // at least two, or they are no scale
+  const across = ticks(west / scale, east / scale, about(east - west));
+  const up = ticks(south / scale, north / scale, about(north - south));
   context.textAlign = "center";
   context.textBaseline = "top";
   for (const value of across.values) {

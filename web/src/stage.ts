@@ -10,6 +10,7 @@ import { Legend } from "./legend";
 import { heardBy, linkedPairs, type Pairs } from "./links";
 import type { Theme } from "./palette";
 import { isAlive, isOnTarget, isPresent, isSilent, type Frame, type Scene } from "./protocol";
+import { spoken } from "./spoken";
 import type { Tape } from "./tape";
 
 /** What is drawn besides agents and targets. */
@@ -48,6 +49,7 @@ export class Stage {
 
   private readonly context: CanvasRenderingContext2D;
   private readonly moment = el("p", { class: "moment" });
+  private readonly words: HTMLElement;
   private readonly hint = el("p", { class: "hint", hidden: true });
   private readonly legend = new Legend();
   private readonly dots = new Dots();
@@ -69,9 +71,10 @@ export class Stage {
     private readonly letter: string, // "A", "B", or "" for a single run
     private readonly tape: (run: number) => Tape,
   ) {
-    this.canvas = el("canvas", { tabindex: 0, role: "application", "aria-label": "Map of the swarm" });
+    this.canvas = el("canvas", { tabindex: 0, role: "application", "aria-label": "Map of the swarm", "aria-describedby": `words-${run}` });
+    this.words = el("p", { class: "unseen", id: `words-${run}` });
     this.context = this.canvas.getContext("2d")!;
-    const water = (this.water = el("div", { class: "water" }, this.canvas, this.hint));
+    const water = (this.water = el("div", { class: "water" }, this.canvas, this.hint, this.words));
     this.root = el(
       "section", { class: "stage", "aria-label": letter ? `Run ${letter}` : "Run" },
       el("div", { class: "caption" }, letter ? el("span", { class: `letter run-${run}` }, letter) : null, this.moment),
@@ -119,6 +122,7 @@ export class Stage {
     const silent = frame.flags.reduce((sum, _, agent) => sum + Number(isAlive(frame, agent) && isSilent(frame, agent)), 0);
     this.legend.note(gone, silent, this.dotted);
     if (playing) return; // a label that changes all the time is read out all the time
+    this.words.textContent = spoken(scene, frame);
     const words = `${count(frame.x.length - gone)} buoys, ${state}`;
     this.canvas.setAttribute("aria-label", `Map of the swarm${this.letter && `, run ${this.letter}`}: ${words}`);
   }
