@@ -52,10 +52,18 @@ export class App implements Listener {
   start(source: Source): void {
     this.source = source;
     byId("transport").replaceWith(this.transport.root);
-    byId("retry").onclick = () => { this.retry(); };
-    byId("theme").onclick = () => { this.switchTheme(); };
-    byId("help-open").onclick = () => { this.help(); };
-    byId("help-close").onclick = () => { byId<HTMLDialogElement>("help").close(); };
+    byId("retry").onclick = () => {
+      this.retry();
+    };
+    byId("theme").onclick = () => {
+      this.switchTheme();
+    };
+    byId("help-open").onclick = () => {
+      this.help();
+    };
+    byId("help-close").onclick = () => {
+      byId<HTMLDialogElement>("help").close();
+    };
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.refresh());
     offerFullScreen();
     drawForPrint((printing) => this.print(printing));
@@ -78,10 +86,20 @@ export class App implements Listener {
     this.numbers = new Numbers(letters);
     document.body.dataset.of = hello.fleet ? "fleet" : "swarm";
     this.roll = hello.fleet ? new Roll() : null;
-    this.swarm = this.source.live && !hello.fleet ? new SwarmControls(hello, letters, (request) => this.send(request), () => this.showTool()) : null;
+    this.swarm =
+      this.source.live && !hello.fleet
+        ? new SwarmControls(
+            hello,
+            letters,
+            (request) => this.send(request),
+            () => this.showTool(),
+          )
+        : null;
     byId("stages").replaceChildren(...this.stages.map((stage) => stage.root));
     byId("side").replaceChildren(
-      el("h2", { class: "unseen" }, "Numbers and controls"), this.arrangement.tabs, this.numbers.root,
+      el("h2", { class: "unseen" }, "Numbers and controls"),
+      this.arrangement.tabs,
+      this.numbers.root,
       el("div", { class: "controls" }, (this.swarm ?? this.roll)?.root ?? this.numbers.table, this.switches.root, this.conditions.root),
     );
     this.transport.offer(hello.speeds);
@@ -296,7 +314,10 @@ export class App implements Listener {
 
   private keys(): { title: string; keys: Key[] }[] {
     const key = (keys: string, words: string, act: () => void, shown?: string): Key => ({
-      keys: keys.split(" ").map((name) => (name === "Space" ? " " : name)), words, act, ...(shown ? { shown } : {}),
+      keys: keys.split(" ").map((name) => (name === "Space" ? " " : name)),
+      words,
+      act,
+      ...(shown ? { shown } : {}),
     });
     const { transport, switches } = this;
     const live = [
@@ -323,7 +344,9 @@ export class App implements Listener {
         keys: [
           key("[", "slower", () => transport.changeSpeed(-1)),
           key("]", "faster", () => transport.changeSpeed(1)),
-          key("r", "restart", () => { if (!transport.restart.hidden) transport.restart.click(); }),
+          key("r", "restart", () => {
+            if (!transport.restart.hidden) transport.restart.click();
+          }),
         ],
       },
       {

@@ -24,7 +24,9 @@ const FONT = "10.5px system-ui, sans-serif";
 
 /** Lines over steps. `top`: of the axis, null for the highest value, or `least` if all are lower. `marks`: steps with a dotted line, where the swarm was changed; `shown`: the step on the water. */
 export function drawLines(
-  canvas: HTMLCanvasElement, theme: Theme, lines: Line[],
+  canvas: HTMLCanvasElement,
+  theme: Theme,
+  lines: Line[],
   options: { first: number; last: number; top: number | null; least: number; marks: number[]; shown: number },
 ): void {
   const { first, marks, shown } = options;
@@ -101,7 +103,11 @@ export function drawPhi(canvas: HTMLCanvasElement, theme: Theme, runs: { phi: Fl
   });
   context.fillStyle = theme.muted;
   context.textBaseline = "top";
-  for (const [phi, align, words] of [[-1, "left", "away"], [0, "center", right - left > 190 ? "still or across" : "still"], [1, "right", "toward"]] as const) {
+  for (const [phi, align, words] of [
+    [-1, "left", "away"],
+    [0, "center", right - left > 190 ? "still or across" : "still"],
+    [1, "right", "toward"],
+  ] as const) {
     context.textAlign = align;
     context.fillText(phi === 1 ? "+1" : fixed(phi, 0), toX(phi), bottom + 4);
     context.fillText(words, toX(phi), bottom + 16);

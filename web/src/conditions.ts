@@ -58,7 +58,12 @@ export class Conditions {
     if (text === this.shown) return;
     this.shown = text;
     this.now.replaceChildren(...rows.flatMap(([words, value]) => [el("dt", {}, words), el("dd", {}, value)]));
-    this.events.replaceChildren(...events.slice(-NAMED).reverse().map((words) => el("li", {}, words)));
+    this.events.replaceChildren(
+      ...events
+        .slice(-NAMED)
+        .reverse()
+        .map((words) => el("li", {}, words)),
+    );
     this.events.hidden = events.length === 0;
   }
 
@@ -81,15 +86,21 @@ export function phrases(scene: Scene): string[] {
   const agents = scene.fleets.reduce((sum, fleet) => sum + fleet.count, 0);
   const speeds = scene.targets.map(({ name, kind, speed }) => name ?? (speed === null ? kind : `${short(speed)} m/s`));
   return [
-    `${count(agents)} buoys`, `k = ${scene.k}`, scene.strategies,
-    `${speeds.length > 1 ? `${speeds.length} targets` : "target"} ${[...new Set(speeds)].join(", ")}`, `seed ${scene.seed}`,
+    `${count(agents)} buoys`,
+    `k = ${scene.k}`,
+    scene.strategies,
+    `${speeds.length > 1 ? `${speeds.length} targets` : "target"} ${[...new Set(speeds)].join(", ")}`,
+    `seed ${scene.seed}`,
   ];
 }
 
 /** Comings and goings up to a step, in their order; agents of one step together. */
 export function happened(scene: Pick<Scene, "events">, step: number, extra: Event[] = []): string[] {
   const groups = new Map<string, { step: number; by: boolean; what: string; agents: number[] }>();
-  for (const [events, by] of [[scene.events, false], [extra, true]] as const) {
+  for (const [events, by] of [
+    [scene.events, false],
+    [extra, true],
+  ] as const) {
     for (const [when, what, agent] of events) {
       if (when > step) continue;
       const key = `${when} ${what} ${by}`;
@@ -100,7 +111,10 @@ export function happened(scene: Pick<Scene, "events">, step: number, extra: Even
   }
   return [...groups.values()]
     .sort((a, b) => a.step - b.step)
-    .map(({ step: when, by, what, agents }) => `${by ? "by step" : "step"} ${count(when)}: no. ${agents.slice(0, 12).join(", ")}${agents.length > 12 ? " …" : ""} ${what}`);
+    .map(
+      ({ step: when, by, what, agents }) =>
+        `${by ? "by step" : "step"} ${count(when)}: no. ${agents.slice(0, 12).join(", ")}${agents.length > 12 ? " …" : ""} ${what}`,
+    );
 }
 
 /** The share of the reports that living agents asked for, k each, that they really heard; null where links are not told. */

@@ -4,7 +4,9 @@ type Child = Node | string | null;
 
 /** A new element with attributes (true: present; false, null: absent) and children. */
 export function el<K extends keyof HTMLElementTagNameMap>(
-  tag: K, attributes: Record<string, string | number | boolean | null> = {}, ...children: Child[]
+  tag: K,
+  attributes: Record<string, string | number | boolean | null> = {},
+  ...children: Child[]
 ): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   set(element, attributes);

@@ -14,7 +14,10 @@ export function forgetFleets(): void {
 
 /** Number of the color and shape of a fleet. */
 export function styleOf(fleet: Fleet): number {
-  return Math.max(seen.findIndex((each) => each.name === fleet.name), 0);
+  return Math.max(
+    seen.findIndex((each) => each.name === fleet.name),
+    0,
+  );
 }
 
 /** The fastest fleet so far. */

@@ -5,7 +5,10 @@ const MINUS = "\u2212";
 
 /** 100 000, its thousands set apart. */
 export function count(value: number): string {
-  return Math.round(value).toString().replace(/\B(?=(\d{3})+$)/g, THIN).replace("-", MINUS);
+  return Math.round(value)
+    .toString()
+    .replace(/\B(?=(\d{3})+$)/g, THIN)
+    .replace("-", MINUS);
 }
 
 /** A number with so many decimals, or a dash where it is unknown. */

@@ -58,7 +58,9 @@ export function drawGraticule({ context, camera, theme }: Brush, { lines }: Eart
   for (const { words, meridian, x, y } of lines) {
     const along = x.map((each, n) => [camera.toX(each), camera.toY(y[n]!)] as const);
     const inside = along.filter(([px, py]) => px > plot.left + 4 && px < plot.left + plot.width - 4 && py > plot.top + 14 && py < plot.top + plot.height - 4);
-    const ends = meridian ? inside.reduce((a, b) => (b[1] > a[1] ? b : a), inside[0] ?? [NaN, NaN]) : inside.reduce((a, b) => (b[0] > a[0] ? b : a), inside[0] ?? [NaN, NaN]);
+    const ends = meridian
+      ? inside.reduce((a, b) => (b[1] > a[1] ? b : a), inside[0] ?? [NaN, NaN])
+      : inside.reduce((a, b) => (b[0] > a[0] ? b : a), inside[0] ?? [NaN, NaN]);
     if (Number.isNaN(ends[0])) continue;
     context.textAlign = meridian ? "left" : "right";
     label(context, theme.water, words, ends[0] + (meridian ? 3 : -3), ends[1] - 2);

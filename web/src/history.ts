@@ -8,7 +8,11 @@ export const SERIES = ["timeOnTarget", "timeOnTargetRecent", "xi", "xiNow", "eng
 export type Series = (typeof SERIES)[number];
 
 const NAMES = {
-  timeOnTarget: "time_on_target", timeOnTargetRecent: "recent", xi: "xi", xiNow: "xi_now", engaged: "engaged",
+  timeOnTarget: "time_on_target",
+  timeOnTargetRecent: "recent",
+  xi: "xi",
+  xiNow: "xi_now",
+  engaged: "engaged",
 } as const;
 
 export class History {

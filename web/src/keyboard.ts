@@ -22,9 +22,12 @@ export function listen(groups: { title: string; keys: Key[] }[]): void {
   });
   byId("keys").replaceChildren(
     ...groups.map(({ title, keys }) =>
-      el("section", { "data-group": title }, el("h3", {}, title), el("dl", {}, ...keys.flatMap(({ keys, shown, words }) => [
-        el("dt", {}, el("kbd", {}, shown ?? keys[0].toUpperCase())), el("dd", {}, words),
-      ]))),
+      el(
+        "section",
+        { "data-group": title },
+        el("h3", {}, title),
+        el("dl", {}, ...keys.flatMap(({ keys, shown, words }) => [el("dt", {}, el("kbd", {}, shown ?? keys[0].toUpperCase())), el("dd", {}, words)])),
+      ),
     ),
   );
 }

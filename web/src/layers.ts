@@ -264,11 +264,19 @@ export function drawCrosshair({ context, camera, theme }: Brush, at: { x: number
   const px = camera.toX(at.x);
   const py = camera.toY(at.y);
   context.beginPath();
-  for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+  for (const [dx, dy] of [
+    [1, 0],
+    [-1, 0],
+    [0, 1],
+    [0, -1],
+  ]) {
     context.moveTo(px + 4 * dx, py + 4 * dy);
     context.lineTo(px + 14 * dx, py + 14 * dy);
   }
-  for (const [color, width] of [[theme.water, 5], [theme.ink, 2]] as const) {
+  for (const [color, width] of [
+    [theme.water, 5],
+    [theme.ink, 2],
+  ] as const) {
     context.strokeStyle = color;
     context.lineWidth = width;
     context.stroke();
@@ -304,8 +312,10 @@ function forEachFleet(scene: Scene, shown: Uint32Array, visit: (fleet: number, a
 
 /** A disc around each living agent, of a radius [m]; overlapping ones do not add up. */
 function drawDiscs(
-  { context, camera, theme }: Brush, { scene, frame, x, y, shown }: Moment,
-  radius: (agent: number, fleet: number) => number, dash: number[],
+  { context, camera, theme }: Brush,
+  { scene, frame, x, y, shown }: Moment,
+  radius: (agent: number, fleet: number) => number,
+  dash: number[],
 ): void {
   forEachFleet(scene, shown, (fleet, agents) => {
     context.beginPath();

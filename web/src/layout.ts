@@ -48,8 +48,7 @@ export function arrange(window: Size, aspect: number, runs: number, panels: bool
     const rows = stacked ? runs : 1;
     return { layout, side, stacked, map, stages: Math.round(rows * (map.height + AXES.height + CAPTION + SLACK) + GAP) };
   };
-  const beside = (least: number, layout: Layout, widest: number): Plan =>
-    plan(layout, least, { width: width - GAP - least, height: under - GAP }, widest);
+  const beside = (least: number, layout: Layout, widest: number): Plan => plan(layout, least, { width: width - GAP - least, height: under - GAP }, widest);
   if (!panels) return plan("column", 0, { width: width - GAP, height: under - GAP });
   if (height < LOW && width >= 560) {
     return plan("short", 280, { width: width - GAP - 280, height: height - GAP }, Math.round(0.6 * width));
@@ -86,14 +85,21 @@ export class Arrangement {
   private panels = true;
 
   constructor(private readonly onChange: () => void) {
-    for (const [words, name] of [["Controls", "controls"], ["Numbers", "numbers"]] as const) {
+    for (const [words, name] of [
+      ["Controls", "controls"],
+      ["Numbers", "numbers"],
+    ] as const) {
       const input = el("input", { type: "radio", name: "tab", value: name });
       input.checked = name === "controls";
-      input.onchange = () => { document.body.dataset.tab = name; };
+      input.onchange = () => {
+        document.body.dataset.tab = name;
+      };
       this.tabs.append(el("label", {}, input, el("span", {}, words)));
     }
     document.body.dataset.tab = "controls";
-    byId("panels").onclick = () => { this.toggle(); };
+    byId("panels").onclick = () => {
+      this.toggle();
+    };
     new ResizeObserver(() => this.apply()).observe(document.documentElement);
   }
 

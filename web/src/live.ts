@@ -27,8 +27,12 @@ export class LiveSource implements Source {
     const socket = new WebSocket(this.address);
     let opened = false;
     socket.binaryType = "arraybuffer";
-    socket.onopen = () => { opened = true; };
-    socket.onmessage = ({ data }) => { this.receive(data as string | ArrayBuffer); };
+    socket.onopen = () => {
+      opened = true;
+    };
+    socket.onmessage = ({ data }) => {
+      this.receive(data as string | ArrayBuffer);
+    };
     socket.onclose = ({ reason }) => {
       if (this.socket !== socket) return;
       this.socket = null;

@@ -21,16 +21,37 @@ interface Measure {
 
 const MEASURES: Measure[] = [
   {
-    title: "Time on target", unit: "share of steps", value: "timeOnTarget", recent: "timeOnTargetRecent",
-    recentWords: "last 1\u2009000", record: "time_on_target", decimals: 3, top: 1, least: 1,
+    title: "Time on target",
+    unit: "share of steps",
+    value: "timeOnTarget",
+    recent: "timeOnTargetRecent",
+    recentWords: "last 1\u2009000",
+    record: "time_on_target",
+    decimals: 3,
+    top: 1,
+    least: 1,
   },
   {
-    title: "Velocity fluctuation Ξ", unit: "of mean top speed", value: "xi", recent: "xiNow", recentWords: "now", record: "xi",
-    decimals: 3, top: null, least: 0.01,
+    title: "Velocity fluctuation Ξ",
+    unit: "of mean top speed",
+    value: "xi",
+    recent: "xiNow",
+    recentWords: "now",
+    record: "xi",
+    decimals: 3,
+    top: null,
+    least: 0.01,
   },
   {
-    title: "Engaged", unit: "agents on target now", value: "engaged", recent: null, recentWords: "", record: null,
-    decimals: 0, top: null, least: 1,
+    title: "Engaged",
+    unit: "agents on target now",
+    value: "engaged",
+    recent: null,
+    recentWords: "",
+    record: null,
+    decimals: 0,
+    top: null,
+    least: 1,
   },
 ];
 
@@ -61,16 +82,16 @@ export class Numbers {
     this.cards = MEASURES.map((measure) => {
       const canvas = el("canvas", { role: "img", "aria-label": `${measure.title} over steps` });
       const card = { measure, canvas, value: el("div", { class: "value" }), words: el("p", { class: "words" }) };
-      this.root.append(
-        el("section", { class: "card" }, el("div", { class: "top" }, el("h3", {}, measure.title), card.value), card.words, canvas),
-      );
+      this.root.append(el("section", { class: "card" }, el("div", { class: "top" }, el("h3", {}, measure.title), card.value), card.words, canvas));
       return card;
     });
     this.root.append(
       el(
-        "section", { class: "card" },
+        "section",
+        { class: "card" },
         el("div", { class: "top" }, el("h3", {}, "Heading to target φ")),
-        el("p", { class: "words" }, "agents by cos(heading, bearing) now"), this.phi,
+        el("p", { class: "words" }, "agents by cos(heading, bearing) now"),
+        this.phi,
       ),
     );
   }
@@ -81,7 +102,8 @@ export class Numbers {
     this.table.replaceChildren(
       el("div", { class: "top" }, el("h3", {}, "Metrics of the record")),
       el(
-        "table", { id: "metrics" },
+        "table",
+        { id: "metrics" },
         el("thead", {}, el("tr", {}, ...["metric", "mean", "95 % interval"].map((name) => el("th", { scope: "col" }, name)))),
         el("tbody", {}, ...scene.metrics.map(metricRow)),
       ),
@@ -137,8 +159,10 @@ function runColor(run: number, runs: number, theme: Theme, alone: string): strin
 function metricRow({ name, label, unit, mean, low, high }: Metric): HTMLElement {
   const text = estimate(mean, low, high);
   return el(
-    "tr", { "data-metric": name },
+    "tr",
+    { "data-metric": name },
     el("th", { scope: "row" }, label, unit === "1" ? null : el("span", { class: "of" }, ` [${unit}]`)),
-    el("td", { class: "mean" }, text.mean), el("td", { class: "interval" }, text.interval),
+    el("td", { class: "mean" }, text.mean),
+    el("td", { class: "interval" }, text.interval),
   );
 }

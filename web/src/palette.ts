@@ -66,9 +66,20 @@ const ring = (corners: number, radius: number, turn: number): Point[] =>
   });
 
 const plus = (turn: number): Point[] =>
-  [[-1, -3], [1, -3], [1, -1], [3, -1], [3, 1], [1, 1], [1, 3], [-1, 3], [-1, 1], [-3, 1], [-3, -1], [-1, -1]].map(
-    ([x, y]) => [0.4 * (x * Math.cos(turn) - y * Math.sin(turn)), 0.4 * (x * Math.sin(turn) + y * Math.cos(turn))],
-  );
+  [
+    [-1, -3],
+    [1, -3],
+    [1, -1],
+    [3, -1],
+    [3, 1],
+    [1, 1],
+    [1, 3],
+    [-1, 3],
+    [-1, 1],
+    [-3, 1],
+    [-3, -1],
+    [-1, -1],
+  ].map(([x, y]) => [0.4 * (x * Math.cos(turn) - y * Math.sin(turn)), 0.4 * (x * Math.sin(turn) + y * Math.cos(turn))]);
 
 /** Corners of each marker about (0, 0), y down, sized to look as big as a disc of radius 1; a circle has none. */
 const CORNERS: Record<Marker, Point[]> = {
@@ -98,10 +109,7 @@ export function traceMarker(context: CanvasRenderingContext2D, marker: Marker, x
 /** The marker of a fleet as a picture for legends. */
 export function fleetGlyph(fleet: number): SVGElement {
   const corners = CORNERS[fleetMarker(fleet)];
-  const shape =
-    corners.length === 0
-      ? svg("circle", { r: 5 })
-      : svg("polygon", { points: corners.map(([x, y]) => `${5 * x},${5 * y}`).join(" ") });
+  const shape = corners.length === 0 ? svg("circle", { r: 5 }) : svg("polygon", { points: corners.map(([x, y]) => `${5 * x},${5 * y}`).join(" ") });
   return glyph("fleet", fleetColor(fleet), shape);
 }
 

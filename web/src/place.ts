@@ -13,8 +13,13 @@ export function showPlace(stage: Stage): void {
   };
   stage.root.querySelector(".caption")!.append(place);
   stage.canvas.addEventListener("pointermove", ({ offsetX, offsetY }) => show(stage.camera.fromX(offsetX), stage.camera.fromY(offsetY)));
-  stage.canvas.addEventListener("pointerleave", () => { place.textContent = ""; });
-  stage.canvas.addEventListener("keydown", () => { // after the crosshair has moved
-    requestAnimationFrame(() => { if (stage.crosshair) show(stage.crosshair.x, stage.crosshair.y); });
+  stage.canvas.addEventListener("pointerleave", () => {
+    place.textContent = "";
+  });
+  stage.canvas.addEventListener("keydown", () => {
+    // after the crosshair has moved
+    requestAnimationFrame(() => {
+      if (stage.crosshair) show(stage.crosshair.x, stage.crosshair.y);
+    });
   });
 }

@@ -110,8 +110,14 @@ export class ReplaySource implements Source {
     const last = this.frame(this.frames.length - 1).step;
     const step = this.frame(this.shown).step;
     this.listener.status({
-      type: "status", playing: this.playing, speed: this.speed, step, first: this.frame(0).step, last,
-      at_end: step === last, busy: null,
+      type: "status",
+      playing: this.playing,
+      speed: this.speed,
+      step,
+      first: this.frame(0).step,
+      last,
+      at_end: step === last,
+      busy: null,
     });
   }
 

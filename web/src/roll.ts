@@ -18,7 +18,8 @@ export class Roll {
       el("div", { class: "top" }, el("h3", {}, "Fleet")),
       el("p", { class: "words" }, "These buoys decide by themselves. They can be watched here, not changed."),
       el(
-        "dl", {},
+        "dl",
+        {},
         ...row("There", this.there, "buoys that are in the water"),
         ...row("Not there", this.gone, "lost, or not yet joined"),
         ...row("Silent", this.silent, "in the water, but nothing was heard of them for a second"),

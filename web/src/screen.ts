@@ -6,7 +6,9 @@ import { byId } from "./dom";
 export function offerFullScreen(): void {
   const button = byId("full");
   button.hidden = !document.fullscreenEnabled;
-  button.onclick = () => { switchFullScreen(); };
+  button.onclick = () => {
+    switchFullScreen();
+  };
   document.addEventListener("fullscreenchange", () => {
     button.setAttribute("aria-pressed", String(document.fullscreenElement !== null));
   });

@@ -76,9 +76,11 @@ export class Stage {
     this.context = this.canvas.getContext("2d")!;
     const water = (this.water = el("div", { class: "water" }, this.canvas, this.hint, this.words));
     this.root = el(
-      "section", { class: "stage", "aria-label": letter ? `Run ${letter}` : "Run" },
+      "section",
+      { class: "stage", "aria-label": letter ? `Run ${letter}` : "Run" },
       el("div", { class: "caption" }, letter ? el("span", { class: `letter run-${run}` }, letter) : null, this.moment),
-      this.legend.root, water,
+      this.legend.root,
+      water,
     );
     new ResizeObserver(() => this.resize(water.clientWidth, water.clientHeight)).observe(water);
   }
@@ -215,10 +217,12 @@ export class Stage {
     const { frame, scene } = this;
     const parts = [
       `${scene.fleets[layers.fleetOf(scene, agent)].name} no. ${agent}`,
-      ...(frame.lean ? [] : [
-        `${fixed(Math.hypot(frame.vx[agent], frame.vy[agent]), 2)} m/s`,
-        scene.has_links ? `hears ${heardBy(frame, agent).length / 2} (k ${frame.degree[agent]})` : `k ${frame.degree[agent]}`,
-      ]),
+      ...(frame.lean
+        ? []
+        : [
+            `${fixed(Math.hypot(frame.vx[agent], frame.vy[agent]), 2)} m/s`,
+            scene.has_links ? `hears ${heardBy(frame, agent).length / 2} (k ${frame.degree[agent]})` : `k ${frame.degree[agent]}`,
+          ]),
     ];
     if (Number.isFinite(frame.repulsion[agent])) parts.push(`a_R ${fixed(frame.repulsion[agent], 3)} m`);
     if (isOnTarget(frame, agent)) parts.push("reports a target");
@@ -287,8 +291,13 @@ export class Stage {
     const mix = (a: Float32Array, b: Float32Array): Float32Array => b.map((value, n) => a[n] + part * (value - a[n]));
     const places = { x: mix(from.x, frame.x), y: mix(from.y, frame.y) };
     return {
-      scene, frame, past, ...places, ...this.shownOf(frame, places),
-      targetX: mix(from.targetX, frame.targetX), targetY: mix(from.targetY, frame.targetY),
+      scene,
+      frame,
+      past,
+      ...places,
+      ...this.shownOf(frame, places),
+      targetX: mix(from.targetX, frame.targetX),
+      targetY: mix(from.targetY, frame.targetY),
     };
   }
 

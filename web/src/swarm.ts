@@ -57,17 +57,30 @@ export class SwarmControls {
       this.summary.textContent = "loading …";
       this.parameters.replaceChildren();
     };
-    this.joins.onchange = () => { this.fleet = Number(this.joins.value); };
-    this.restart.onclick = () => { this.startAgain(); };
-    this.seed.onkeydown = (event) => { if (event.key === "Enter") this.startAgain(); };
+    this.joins.onchange = () => {
+      this.fleet = Number(this.joins.value);
+    };
+    this.restart.onclick = () => {
+      this.startAgain();
+    };
+    this.seed.onkeydown = (event) => {
+      if (event.key === "Enter") this.startAgain();
+    };
     this.fields.append(
-      this.toolButtons(), this.k.root, this.targetSpeed.root, this.fast.root,
-      el("label", { class: "row", for: "strategy" }, el("span", {}, "Strategy"), this.strategy), this.summary,
+      this.toolButtons(),
+      this.k.root,
+      this.targetSpeed.root,
+      this.fast.root,
+      el("label", { class: "row", for: "strategy" }, el("span", {}, "Strategy"), this.strategy),
+      this.summary,
       el("details", {}, el("summary", {}, "Parameters of the strategy"), this.parameters),
     );
     this.again.append(el("div", { class: "row" }, el("label", { for: "seed" }, "Seed"), this.seed, this.restart));
     this.root.append(
-      el("div", { class: "top" }, el("h3", {}, "Swarm"), letters.length > 1 ? this.runChoice(letters) : null), this.why, this.fields, this.again,
+      el("div", { class: "top" }, el("h3", {}, "Swarm"), letters.length > 1 ? this.runChoice(letters) : null),
+      this.why,
+      this.fields,
+      this.again,
     );
     this.choose("look");
   }
@@ -107,9 +120,10 @@ export class SwarmControls {
     const agents = scene.fleets.reduce((sum, fleet) => sum + fleet.count, 0);
     const k = scene.neighbors === "all" ? agents - 1 : scene.neighbors;
     if (scene.adapts) this.k.refuse(scene.k);
-    else this.k.show(k, { min: 1, max: Math.max(agents - 1, 1), step: 1 }, (value) =>
-      value >= agents - 1 ? `all ${count(value)}` : `${count(value)} of ${count(agents - 1)}`,
-    );
+    else
+      this.k.show(k, { min: 1, max: Math.max(agents - 1, 1), step: 1 }, (value) =>
+        value >= agents - 1 ? `all ${count(value)}` : `${count(value)} of ${count(agents - 1)}`,
+      );
     this.showTargetSpeed(scene);
     this.showFast(scene, agents);
     this.showStrategy(scene);
@@ -142,9 +156,7 @@ export class SwarmControls {
     if (countFleets() !== 2) return this.fast.refuse("needs two fleets");
     const { name, max_speed } = fastestFleet();
     const fast = scene.fleets.find((fleet) => fleet.name === name)?.count ?? 0;
-    this.fast.show(fast, { min: 0, max: agents, step: 1 }, (value) =>
-      `${count(value)} of ${count(agents)} (${Math.round((100 * value) / agents)} %)`,
-    );
+    this.fast.show(fast, { min: 0, max: agents, step: 1 }, (value) => `${count(value)} of ${count(agents)} (${Math.round((100 * value) / agents)} %)`);
     this.fast.input.title = `${name}, ${short(max_speed)} m/s`;
   }
 
@@ -173,33 +185,46 @@ export class SwarmControls {
     if (about.choices) {
       input = el("select", { id }, ...about.choices.map((choice) => el("option", { value: choice }, choice)));
       input.value = String(value);
-      input.onchange = () => { change(input.value); };
+      input.onchange = () => {
+        change(input.value);
+      };
     } else if (about.type.startsWith("bool")) {
       const box = (input = el("input", { id, type: "checkbox" }));
       box.checked = Boolean(value);
-      box.onchange = () => { change(box.checked); };
+      box.onchange = () => {
+        change(box.checked);
+      };
     } else {
       const whole = about.type.startsWith("int");
       const number = (input = el("input", { id, type: "number", step: whole ? 1 : "any" }));
       number.value = String(typeof value === "number" ? Number(value.toPrecision(6)) : value);
-      number.onchange = () => { if (number.value !== "") change(Number(number.value)); };
+      number.onchange = () => {
+        if (number.value !== "") change(Number(number.value));
+      };
     }
     return el(
-      "label", { class: "row", for: id, title: about.description },
-      el("span", {}, field.replaceAll("_", " ")), input, el("span", { class: "unit" }, unit),
+      "label",
+      { class: "row", for: id, title: about.description },
+      el("span", {}, field.replaceAll("_", " ")),
+      input,
+      el("span", { class: "unit" }, unit),
     );
   }
 
   private toolButtons(): HTMLElement {
     const choices = TOOLS.map((tool, n) => {
       const input = el("input", { type: "radio", name: "tool", value: tool, id: `tool-${tool}` });
-      input.onchange = () => { this.choose(tool); };
+      input.onchange = () => {
+        this.choose(tool);
+      };
       return el("label", { title: `${TOOL_WORDS[tool][1]} (key ${n + 1})` }, input, el("span", {}, TOOL_WORDS[tool][0]));
     });
     return el(
-      "div", { class: "tools" },
+      "div",
+      { class: "tools" },
       el("div", { class: "segments", role: "radiogroup", "aria-label": "What a click on the water does" }, ...choices),
-      this.joins, this.toolHint,
+      this.joins,
+      this.toolHint,
     );
   }
 
@@ -216,8 +241,10 @@ export class SwarmControls {
       return el("label", {}, input, el("span", {}, words));
     };
     return el(
-      "div", { class: "segments small", role: "radiogroup", "aria-label": "Which run to change" },
-      ...letters.map((letter, run) => choice(letter, [run])), choice("both", all),
+      "div",
+      { class: "segments small", role: "radiogroup", "aria-label": "Which run to change" },
+      ...letters.map((letter, run) => choice(letter, [run])),
+      choice("both", all),
     );
   }
 

@@ -29,7 +29,9 @@ export class Switches {
     for (const { name, words, key } of SWITCHES) {
       const input = el("input", { type: "checkbox", role: "switch", id: `show-${name}` });
       input.checked = this.look[name];
-      input.onchange = () => { this.set(name, input.checked); };
+      input.onchange = () => {
+        this.set(name, input.checked);
+      };
       this.inputs.set(name, input);
       list.append(el("label", { title: `${words} (${key})` }, input, el("span", {}, words), el("kbd", {}, key)));
     }
@@ -40,12 +42,17 @@ export class Switches {
   describe(scenes: Scene[]): void {
     const agents = Math.max(...scenes.map((scene) => scene.fleets.reduce((sum, fleet) => sum + fleet.count, 0)));
     if (!this.asked) this.apply("links", agents <= MANY);
-    this.allow("links", scenes.some((scene) => scene.has_links), agents > KEPT ? `kept of up to ${KEPT} buoys` : "this record keeps none");
+    this.allow(
+      "links",
+      scenes.some((scene) => scene.has_links),
+      agents > KEPT ? `kept of up to ${KEPT} buoys` : "this record keeps none",
+    );
     const tooMany = agents > DETAILED ? `sent of up to ${count(DETAILED)} buoys` : null;
     this.allow("headings", !tooMany, tooMany ?? "");
     this.allow("halos", !tooMany && scenes.some((scene) => scene.has_repulsion), tooMany ?? "this strategy has no a_R");
     for (const [name, there] of [
-      ["currents", scenes.some(({ geography }) => geography?.currents)], ["graticule", scenes.some(({ geography }) => geography?.earth)],
+      ["currents", scenes.some(({ geography }) => geography?.currents)],
+      ["graticule", scenes.some(({ geography }) => geography?.earth)],
     ] as const) {
       this.inputs.get(name)!.disabled = !there;
       this.inputs.get(name)!.parentElement!.hidden = !there;

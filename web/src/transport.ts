@@ -24,9 +24,7 @@ export class Transport {
   private readonly newest = button("newest", "To the newest step (End)");
   private readonly clock = el("output", { class: "clock" });
   private readonly times = el("output", { class: "times" });
-  private readonly pace = el(
-    "label", { class: "speed", title: "Speed, times real time ([ and ])" }, el("span", {}, "Speed"), this.speed, this.times,
-  );
+  private readonly pace = el("label", { class: "speed", title: "Speed, times real time ([ and ])" }, el("span", {}, "Speed"), this.speed, this.times);
   private speeds: number[] = [];
   private status: Status | null = null;
   private timeStep = 0; // [s]
@@ -42,13 +40,27 @@ export class Transport {
       el("div", { class: "scrubbing" }, this.scrub, this.clock),
       this.pace,
     );
-    this.restart.onclick = () => { this.send({ do: "restart" }); };
-    this.back.onclick = () => { this.stepBy(-1); };
-    this.forward.onclick = () => { this.stepBy(1); };
-    this.play.onclick = () => { this.toggle(); };
-    this.newest.onclick = () => { this.toNewest(); };
-    this.scrub.oninput = () => { this.seekSoon(Number(this.scrub.value)); };
-    this.speed.oninput = () => { this.send({ do: "speed", value: this.speeds[Number(this.speed.value)] }); };
+    this.restart.onclick = () => {
+      this.send({ do: "restart" });
+    };
+    this.back.onclick = () => {
+      this.stepBy(-1);
+    };
+    this.forward.onclick = () => {
+      this.stepBy(1);
+    };
+    this.play.onclick = () => {
+      this.toggle();
+    };
+    this.newest.onclick = () => {
+      this.toNewest();
+    };
+    this.scrub.oninput = () => {
+      this.seekSoon(Number(this.scrub.value));
+    };
+    this.speed.oninput = () => {
+      this.send({ do: "speed", value: this.speeds[Number(this.speed.value)] });
+    };
     this.times.textContent = "–";
   }
 

@@ -32,14 +32,14 @@ export function makeFrame(made: Made): ArrayBuffer {
   for (const [n, value] of (made.measures ?? []).entries()) view.setFloat32(20 + 4 * n, value, true);
   let at = 84;
   const floats = (values: number[]): void => {
-    for (const value of values) (view.setFloat32(at, value, true), (at += 4));
+    for (const value of values) view.setFloat32(at, value, true), (at += 4);
   };
   floats(x);
   floats(made.y ?? x.map(() => 0));
   for (let n = 0; n < (lean ? 0 : 3); n++) floats(x.map((_, agent) => 10 * n + agent));
   floats(targets.map((target) => target[0]));
   floats(targets.map((target) => target[1]));
-  for (const degree of lean ? [] : made.degree ?? x.map(() => 1)) (view.setUint16(at, degree, true), (at += 2));
+  for (const degree of lean ? [] : (made.degree ?? x.map(() => 1))) view.setUint16(at, degree, true), (at += 2);
   for (const flags of made.flags ?? x.map(() => 2)) view.setUint8(at++, flags);
   for (const target of targets) view.setUint8(at++, target[2]);
   for (const byte of links.flat()) view.setUint8(at++, byte);

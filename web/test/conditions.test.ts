@@ -5,7 +5,13 @@ import { decodeFrame } from "../src/protocol";
 import { makeFrame } from "./bytes";
 
 describe("Comings and goings", () => {
-  const scene = { events: [[5, "lost", 3], [5, "lost", 4], [9, "joined", 7]] as [number, "lost" | "joined", number][] };
+  const scene = {
+    events: [
+      [5, "lost", 3],
+      [5, "lost", 4],
+      [9, "joined", 7],
+    ] as [number, "lost" | "joined", number][],
+  };
 
   it("are told when they have happened, those of a step together", () => {
     assert.deepEqual(happened(scene, 4), []);

@@ -10,8 +10,17 @@ const themes: [string, Theme][] = [":root {", ':root[data-theme="dark"] {'].map(
   const block = css.slice(css.indexOf(begin), css.indexOf("}", css.indexOf(begin)));
   const value = (name: string): string => new RegExp(`--${name}: (#[0-9a-f]{6});`).exec(block)![1]!;
   const theme = {
-    dark: begin.includes("dark"), ink: value("ink"), muted: value("muted"), line: value("line"), water: value("water"), outside: value("card"),
-    rim: value("rim"), land: value("land"), shore: value("shore"), current: value("current"), secondRun: value("second-run"),
+    dark: begin.includes("dark"),
+    ink: value("ink"),
+    muted: value("muted"),
+    line: value("line"),
+    water: value("water"),
+    outside: value("card"),
+    rim: value("rim"),
+    land: value("land"),
+    shore: value("shore"),
+    current: value("current"),
+    secondRun: value("second-run"),
   };
   return [begin, theme];
 });
@@ -43,8 +52,14 @@ for (const [name, theme] of themes) {
 
     it("that are no fleet's do, too", () => {
       const marks: [string, string, number][] = [
-        ["target", TARGET_COLOR, 1], ["track", TARGET_COLOR, COVERS.track], ["link", theme.muted, COVERS.link], ["gone", theme.muted, COVERS.gone],
-        ["outline", theme.ink, 1], ["edge", theme.muted, 1], ["shore", theme.shore, 1], ["current", theme.current, 1],
+        ["target", TARGET_COLOR, 1],
+        ["track", TARGET_COLOR, COVERS.track],
+        ["link", theme.muted, COVERS.link],
+        ["gone", theme.muted, COVERS.gone],
+        ["outline", theme.ink, 1],
+        ["edge", theme.muted, 1],
+        ["shore", theme.shore, 1],
+        ["current", theme.current, 1],
       ];
       for (const [mark, color, covers] of marks) assert.ok(seen(color, covers) >= LEAST, `${mark}: ${seen(color, covers)}`);
     });

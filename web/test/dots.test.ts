@@ -27,7 +27,10 @@ describe("A swarm of very many", () => {
     const shown = [...inView(camera, row(10 * MARKED))!];
     assert.ok(shown.length > 0.7 * MARKED);
     assert.ok(shown.every((agent) => Math.abs(agent - 5 * MARKED) < MARKED));
-    assert.deepEqual(shown, [...shown].sort((a, b) => a - b));
+    assert.deepEqual(
+      shown,
+      [...shown].sort((a, b) => a - b),
+    );
   });
 
   it("has markers for those that report a target, if they are there", () => {
@@ -35,6 +38,9 @@ describe("A swarm of very many", () => {
   });
 
   it("has dots that leave most of the water free", () => {
-    assert.deepEqual([3000, 30_000, 1_000_000].map((agents) => dotSide(400_000, agents)), [3, 2, 1]);
+    assert.deepEqual(
+      [3000, 30_000, 1_000_000].map((agents) => dotSide(400_000, agents)),
+      [3, 2, 1],
+    );
   });
 });

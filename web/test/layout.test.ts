@@ -39,7 +39,12 @@ describe("The arrangement", () => {
   });
 
   it("is possible on any screen", () => {
-    for (const [width, height] of [[320, 256], [200, 2000], [3000, 300], [1, 1]] as const) {
+    for (const [width, height] of [
+      [320, 256],
+      [200, 2000],
+      [3000, 300],
+      [1, 1],
+    ] as const) {
       for (const aspect of [0.05, 1, 20]) {
         const { map, side } = arrange(at(width, height), aspect, 2, true);
         assert.ok(map.width > 0 && map.height > 0 && side >= 0);

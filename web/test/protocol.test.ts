@@ -8,8 +8,19 @@ describe("A frame", () => {
     const measures = [0.5, 0.25, 0.75, 0.125, 3, ...Array.from({ length: 11 }, (_, bin) => bin)];
     const frame = decodeFrame(
       makeFrame({
-        run: 1, epoch: 7, step: 70000, x: [1.5, -2.5, 4], y: [0.5, 1, 2], degree: [2, 1, 600], flags: [3, 2, 1],
-        targets: [[8, -8, 1], [1, 2, 0]], measures, links: [[6], [1], [0]],
+        run: 1,
+        epoch: 7,
+        step: 70000,
+        x: [1.5, -2.5, 4],
+        y: [0.5, 1, 2],
+        degree: [2, 1, 600],
+        flags: [3, 2, 1],
+        targets: [
+          [8, -8, 1],
+          [1, 2, 0],
+        ],
+        measures,
+        links: [[6], [1], [0]],
       }),
     );
     assert.deepEqual([frame.run, frame.epoch, frame.step], [1, 7, 70000]);
@@ -24,10 +35,28 @@ describe("A frame", () => {
   });
 
   it("tells who is on target, who is alive and which target is there", () => {
-    const frame = decodeFrame(makeFrame({ x: [0, 0, 0], flags: [3, 2, 1], targets: [[0, 0, 1], [0, 0, 0]] }));
-    assert.deepEqual([0, 1, 2].map((agent) => isOnTarget(frame, agent)), [true, false, true]);
-    assert.deepEqual([0, 1, 2].map((agent) => isAlive(frame, agent)), [true, true, false]);
-    assert.deepEqual([0, 1].map((target) => isPresent(frame, target)), [true, false]);
+    const frame = decodeFrame(
+      makeFrame({
+        x: [0, 0, 0],
+        flags: [3, 2, 1],
+        targets: [
+          [0, 0, 1],
+          [0, 0, 0],
+        ],
+      }),
+    );
+    assert.deepEqual(
+      [0, 1, 2].map((agent) => isOnTarget(frame, agent)),
+      [true, false, true],
+    );
+    assert.deepEqual(
+      [0, 1, 2].map((agent) => isAlive(frame, agent)),
+      [true, true, false],
+    );
+    assert.deepEqual(
+      [0, 1].map((target) => isPresent(frame, target)),
+      [true, false],
+    );
   });
 
   it("of very many agents is lean: where they are, and who reports a target", () => {
@@ -49,7 +78,10 @@ describe("Frames one behind the other", () => {
   it("are cut where each ends, wherever that is in memory", () => {
     const made = [makeFrame({ step: 0 }), makeFrame({ step: 5, x: [1, 2, 3], targets: [], links: [[6], [1], [0]] }), makeFrame({ step: 9 })];
     const joined = new Uint8Array(made.flatMap((each) => [...new Uint8Array(each)]));
-    assert.deepEqual(splitFrames(joined).map((each) => decodeFrame(each).step), [0, 5, 9]);
+    assert.deepEqual(
+      splitFrames(joined).map((each) => decodeFrame(each).step),
+      [0, 5, 9],
+    );
   });
 
   it("that end too early are refused", () => {

@@ -4,7 +4,13 @@ import { decodeFrame, type Scene } from "../src/protocol";
 import { spoken } from "../src/spoken";
 import { makeFrame } from "./bytes";
 
-const scene = { area: { width: 20, height: 20 }, fleets: [{ name: "fast", count: 1 }, { name: "slow", count: 2 }] } as unknown as Scene;
+const scene = {
+  area: { width: 20, height: 20 },
+  fleets: [
+    { name: "fast", count: 1 },
+    { name: "slow", count: 2 },
+  ],
+} as unknown as Scene;
 
 describe("The water in words", () => {
   it("says who is there, who reports and where they and the target are", () => {
@@ -17,7 +23,16 @@ describe("The water in words", () => {
   });
 
   it("says that a target is not there, and what is in the middle", () => {
-    const frame = decodeFrame(makeFrame({ x: [0, 0, 0], targets: [[0, 0, 0], [0.1, 0.1, 1]], measures: [NaN] }));
+    const frame = decodeFrame(
+      makeFrame({
+        x: [0, 0, 0],
+        targets: [
+          [0, 0, 0],
+          [0.1, 0.1, 1],
+        ],
+        measures: [NaN],
+      }),
+    );
     assert.match(spoken(scene, frame), /Target 1 is not there\. Target 2 is in the middle\.$/);
   });
 });

@@ -16,11 +16,16 @@ function tapeOf(...steps: number[]): Tape {
 describe("A tape", () => {
   it("finds the frame at or before a step", () => {
     const tape = tapeOf(0, 10, 20);
-    assert.deepEqual([-1, 0, 9, 10, 99].map((step) => tape.indexOf(step)), [-1, 0, 0, 1, 2]);
+    assert.deepEqual(
+      [-1, 0, 9, 10, 99].map((step) => tape.indexOf(step)),
+      [-1, 0, 0, 1, 2],
+    );
   });
 
   it("gives the frames of the last steps, the shown one too", () => {
-    const steps = tapeOf(0, 10, 20, 30).recent(20, 10).map((frame) => frame.step);
+    const steps = tapeOf(0, 10, 20, 30)
+      .recent(20, 10)
+      .map((frame) => frame.step);
     assert.deepEqual(steps, [10, 20]);
   });
 
