@@ -1,4 +1,4 @@
-"""How often a second the live page draws, and how much it weighs: python benchmarks/bench_page.py (needs playwright, a chromium).
+"""How often a second the live page draws, and how much it weighs: python benchmarks/bench_page.py (needs playwright).
 
 The page is in a headless browser without a graphics card, on the cores that the engine works on, too.
 """

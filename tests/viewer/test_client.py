@@ -160,9 +160,9 @@ class TestHearing:
 
     def test_a_page_that_asks_without_end_is_not_listened_to(self):
         worker = idle()
-        socket = talk(worker, nothing, *['{"do": "speed", "value": 2.0}'] * (BURST + 50))
+        socket = talk(worker, nothing, *['{"do": "speed", "value": 2.0}'] * (BURST + 1000))
         assert socket.closed == 1008
-        assert len(socket.said) >= 40
+        assert socket.said  # which nobody reads any more
         assert worker._asked.full()
 
     def test_sense_is_passed_on(self):
