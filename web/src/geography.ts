@@ -6,6 +6,7 @@ import type { Theme } from "./palette";
 import type { Earth, Geography, Scene } from "./protocol";
 
 const SHORTEST_BAR = 0.14; // of the plot's width
+const APART = { x: 74, y: 30 }; // [px] between the words of meridians, of parallels
 const HEADS = 3.2; // [px] of arrows
 
 /** Land in its shore, and where the search area ends. */
@@ -55,6 +56,8 @@ export function drawGraticule({ context, camera, theme }: Brush, { lines }: Eart
   context.setLineDash([]);
   context.font = "10.5px system-ui, sans-serif";
   context.textBaseline = "bottom";
+  const beside = plot.left + 30 + scaleBar((plot.width * SHORTEST_BAR) / camera.scale).meters * camera.scale;
+  const written: { meridian: boolean; at: number }[] = [];
   for (const { words, meridian, x, y } of lines) {
     const along = x.map((each, n) => [camera.toX(each), camera.toY(y[n]!)] as const);
     const inside = along.filter(([px, py]) => px > plot.left + 4 && px < plot.left + plot.width - 4 && py > plot.top + 14 && py < plot.top + plot.height - 4);
@@ -62,6 +65,10 @@ export function drawGraticule({ context, camera, theme }: Brush, { lines }: Eart
       ? inside.reduce((a, b) => (b[1] > a[1] ? b : a), inside[0] ?? [NaN, NaN])
       : inside.reduce((a, b) => (b[0] > a[0] ? b : a), inside[0] ?? [NaN, NaN]);
     if (Number.isNaN(ends[0])) continue;
+    const at = meridian ? ends[0] : ends[1];
+    if (meridian ? at < beside : at < plot.top + 48) continue; // there are the scale and north
+    if (written.some((each) => each.meridian === meridian && Math.abs(each.at - at) < (meridian ? APART.x : APART.y))) continue;
+    written.push({ meridian, at });
     context.textAlign = meridian ? "left" : "right";
     label(context, theme.water, words, ends[0] + (meridian ? 3 : -3), ends[1] - 2);
   }
