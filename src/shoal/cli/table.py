@@ -11,11 +11,12 @@ from shoal.core.text import plain
 from shoal.metrics.summary import METRICS
 from shoal.record.record import Record
 from shoal.record.statistics import Estimate
-from shoal.record.words import interval_text, mean_text
+from shoal.record.words import interval_text, mean_text, steered_text
 from shoal.scenario.choices import degree_text, speed_of, strategy_text
 from shoal.scenario.schema import Scenario
 
 _OF_FLEETS = ("xi_raw", "stationary", "speed", "power", "energy", "charge")
+_MOST_TOLD = 10  # changes of a steered run
 _OF_TARGETS = ("time_on_target", "first_detection", "reacquisition")
 
 
@@ -39,6 +40,7 @@ def print_record(record: Record) -> None:
         f"{runs} run{'s' * (runs > 1)} of {scenario.steps:,} steps of {scenario.time_step:g} s, "
         f"seed {record.provenance['seed']}, scenario {record.provenance['scenario_hash']}"
     )
+    _tell_of_steering(record)
     table = Table(box=None, padding=(0, 2, 0, 0))
     for title, justify in (("", "left"), ("mean", "right"), ("95 % interval", "right"), ("unit", "left")):
         width = None if title else 28  # of labels: long names of fleets are cut, not numbers
@@ -80,6 +82,19 @@ def _add_parts(table: Table, record: Record) -> None:
         for name in ("before", "during", "after"):
             table.add_row(f"  time on target {name}", *_cells(change[name]), "")
         table.add_row("  recovery", *_cells(change["recovery"]), "s")
+
+
+def _tell_of_steering(record: Record) -> None:
+    """What was changed while the run was watched: the lines above are of its begin, the numbers below of all of it."""
+    steered = record.steered
+    if not steered:
+        return
+    console = results_console()
+    console.print(steered_text(steered) + "; above is what it began with, the numbers are over all steps")
+    for step, words in steered[:_MOST_TOLD]:
+        console.print(f"  step {step:,}: {plain(words)}")
+    if len(steered) > _MOST_TOLD:
+        console.print(f"  and {len(steered) - _MOST_TOLD:,} more, in changes.jsonl of the record")
 
 
 def _joining(scenario: Scenario, fleet: str) -> str:

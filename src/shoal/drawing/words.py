@@ -7,6 +7,7 @@ from typing import Any
 from shoal.core.text import plain
 from shoal.record.record import Record
 from shoal.record.statistics import Estimate
+from shoal.record.words import steered_text
 from shoal.scenario.choices import degree_text, speed_of, strategy_text
 
 _THIN = "\u2009"
@@ -81,6 +82,7 @@ def setup_phrases(record: Record) -> list[str]:
         targets_text(scenario.targets),
         plural(scenario.steps, "step") + f" of {facts.time_step:g} s",
         plural(len(record.tallies), "run"),
+        *([steered_text(record.steered)] if record.steered else ()),
     ]
 
 

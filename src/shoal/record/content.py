@@ -27,6 +27,11 @@ class _Part(BaseModel):
     model_config = ConfigDict(strict=True, extra="allow", frozen=True)
 
 
+class _Steered(_Part):
+    step: _Whole
+    words: str
+
+
 class _Provenance(_Part):
     steps: _Whole
     seed: _Whole
@@ -37,6 +42,7 @@ class _Provenance(_Part):
     started: str
     seconds: Annotated[float, Field(ge=0, allow_inf_nan=False)]
     notes: list[str]
+    steered: list[_Steered] = []
 
 
 class _Facts(_Part):

@@ -22,6 +22,8 @@ from shoal.record.record import Record
 from shoal.record.roster import Roster
 from shoal.record.trajectory import Trajectory, TrajectoryWriter
 
+LOG = "changes.jsonl"  # of a run that was steered, beside its record
+
 
 class RecordFolder:
     """A record being written; use it as a context and `finish` it, or nothing is left.
@@ -35,6 +37,7 @@ class RecordFolder:
         self.folder = Path(folder)
         self._whole = AtomicFolder(folder, last="record.json")
         self._writers: dict[str, TrajectoryWriter] = {}
+        self._texts: list[str] = []
 
     def __enter__(self) -> Self:
         self._whole.__enter__()
@@ -50,6 +53,11 @@ class RecordFolder:
         name = f"run-{run:04d}"
         self._writers[name] = TrajectoryWriter(self._whole.partial / name, frames)
         return self._writers[name]
+
+    def add(self, name: str, text: str) -> None:
+        """Put a text beside the record."""
+        (self._whole.partial / name).write_text(text, encoding="utf-8")
+        self._texts.append(name)
 
     def finish(self, record: Record) -> Record:
         """Write what is left, give everything its place, and return the record as it is on disk."""
@@ -72,7 +80,7 @@ class RecordFolder:
             "facts": record.facts._asdict(),
             "scenario": record.scenario.model_dump(mode="json"),
             "sha256": {
-                **{name: sum_of_file(self._whole.partial / name) for name in ("roster.npz", "tallies.npz")},
+                **{name: sum_of_file(self._whole.partial / name) for name in ("roster.npz", "tallies.npz", *self._texts)},
                 **{
                     f"{folder}/{name}.npy": each
                     for folder, writer in sorted(self._writers.items())
@@ -125,6 +133,8 @@ def open_record(folder: str | Path) -> Record:
             runs=content.summary.runs,
             checksum=content.checksum_of("tallies.npz"),
         )
+        if LOG in (content.sha256 or {}) and sum_of_file(folder / LOG) != content.checksum_of(LOG):
+            raise ValueError(f"{LOG} is not what was written")
         trajectories = KeptTrajectories(folder, content, roster)
         return Record(content.scenario, facts, roster, tallies, content.raw["provenance"], trajectories)
     except RecordError:

@@ -27,7 +27,7 @@ from shoal.record.roster import Roster
 from shoal.record.search import FoundShares, SearchTime, found_by, time_to_find
 from shoal.record.statistics import FEWEST, Estimate, all_alike, estimate
 from shoal.record.trajectory import Trajectory
-from shoal.record.words import interval_text, mean_text
+from shoal.record.words import interval_text, mean_text, steered_text
 from shoal.scenario.choices import headline
 from shoal.scenario.schema import Scenario
 
@@ -58,6 +58,14 @@ class Record:
     tallies: tuple[Tally, ...]
     provenance: dict[str, Any]
     trajectories: Mapping[int, Trajectory] = field(default_factory=dict)
+
+    @property
+    def steered(self) -> tuple[tuple[int, str], ...]:
+        """What was changed while the run was watched: step and words of each change; nothing of a run that was not.
+
+        Then the scenario and the roster are what the run began with, and the numbers are over all of its steps.
+        """
+        return tuple((each["step"], each["words"]) for each in self.provenance.get("steered", ()))
 
     def estimate(self, metric: str) -> Estimate:
         """Mean and 95 % confidence interval of a metric, see shoal.list_metrics(): over runs, or batches of one run.
@@ -317,6 +325,7 @@ class Record:
         return (
             f"{plain(self.scenario.name)}: {runs} run{'s' * (runs != 1)} of {self.scenario.steps:,} steps, "
             f"seed {about['seed']}, scenario {about['scenario_hash']}"
+            + (f"; {steered_text(self.steered)}" if self.steered else "")
         )
 
     if not TYPE_CHECKING:  # hidden from type checkers, which know the names

@@ -1,6 +1,7 @@
 """Estimates in words, the same in a terminal and in a notebook."""
 
 import math
+from collections.abc import Sequence
 
 from shoal.record.statistics import Estimate
 
@@ -30,3 +31,9 @@ def spread_text(mean: float, low: float | None, high: float | None, decimals: in
 def decimals_of(mean: float) -> int:
     """How many decimals a mean and its interval are told with: four, one of large numbers."""
     return 4 if not abs(mean) >= 100 else 1
+
+
+def steered_text(steered: Sequence[tuple[int, str]]) -> str:
+    """That a run was changed while it was watched: so often, and first when; what else is said of it is its begin."""
+    changes = f"{len(steered):,} change{'s' * (len(steered) != 1)}"
+    return f"steered: {changes} on the way, the first at step {steered[0][0]:,}"

@@ -12,18 +12,20 @@ from shoal.world.disturbances.contract import NOT_BEGUN, Weather
 Lanes = npt.NDArray[np.int64]
 
 
-def carry_over(old: Simulation, scenario: Scenario, origin: npt.ArrayLike | None = None) -> Simulation:
+def carry_over(
+    old: Simulation, scenario: Scenario, origin: npt.ArrayLike | None = None, *, sums: bool = False
+) -> Simulation:
     """Return a simulation of `scenario` that goes on where `old` is, which stays as it is.
 
     The step and the whole state are carried over: of agents, of targets of the same kind, and what is on the air. What
     depends on more than the agent itself has a rule: memories go to agents whose strategy is the same, others begin
-    theirs where they are; k is carried where it adapts. Sums start over. Same bits, whenever the same is carried over
-    at the same step.
+    theirs where they are; k is carried where it adapts. Same bits, whenever the same is carried over at the same step.
 
     Parameters
     ----------
     scenario : what is from now on
     origin : (N,) for each agent the one that it was, -1 for a new one; default: agents keep their numbers
+    sums : the sums of the tally go on, which must be of the same fleets, agents, targets and steps; else they start over
 
     Raises
     ------
@@ -50,6 +52,8 @@ def carry_over(old: Simulation, scenario: Scenario, origin: npt.ArrayLike | None
         new.begin()
         _carry_memory(old, new, now, here, there)
         _carry_air(old, new, now, here, there)
+        for mine, theirs in zip(now.tally, before.tally if sums else (), strict=False):
+            mine[...] = theirs
     return new
 
 
