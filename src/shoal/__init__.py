@@ -10,6 +10,7 @@ simulate, compare, sweep, reproduce, check     run a scenario, or many of them
 tune, design                                   look for the best values, for the fleets that are worth their cost
 load, presets, to_toml, Scenario               what to run; `scenario.with_(neighbors=10)` is another
 Simulation                                     one run, step by step
+replay_changes                                 a run that was changed while it was watched, made again
 Record, open_record, save_record, load_results what runs leave behind
 export                                         its tracks, for maps and other programs
 list_strategies, list_metrics, list_presets    what there is
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
     from shoal.record.files import open_record, save_record
     from shoal.record.record import Record
     from shoal.record.voyage.export import export
+    from shoal.run.replay_changes import replay_changes
     from shoal.run.simulate import simulate
     from shoal.run.simulation import Simulation
     from shoal.scenario.briefing import briefing
@@ -70,6 +72,7 @@ _HOMES = {
     "shoal.scenario.briefing": ("briefing",),
     "shoal.scenario.load": ("load", "presets", "to_toml"),
     "shoal.scenario.schema": ("Scenario",),
+    "shoal.run.replay_changes": ("replay_changes",),
     "shoal.run.simulate": ("simulate",),
     "shoal.run.simulation": ("Simulation",),
     "shoal.strategies": ("kernel", "strategy"),
@@ -117,6 +120,7 @@ __all__ = [
     "open_record",
     "plot",
     "presets",
+    "replay_changes",
     "reproduce",
     "save_record",
     "simulate",

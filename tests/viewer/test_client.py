@@ -84,7 +84,7 @@ async def nothing(socket):
 class TestTelling:
     def test_hello_history_scene_frame_status_in_this_order(self):
         socket = talk(idle(), nothing)
-        assert [each["type"] for each in socket.texts] == ["hello", "history", "scene", "status"]
+        assert [each["type"] for each in socket.texts] == ["hello", "history", "scene", "numbers", "status"]
         assert [frame.step for frame in socket.frames] == [0]
 
     def test_a_page_that_is_slow_skips_to_the_newest(self):

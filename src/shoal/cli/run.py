@@ -10,6 +10,8 @@ from shoal.cli.options import check_most, edited_table
 from shoal.cli.places import check_places
 from shoal.cli.progress import note, progress_bar
 from shoal.cli.startup import load_compiler, tell_of_compiling
+from shoal.cli.steered import SUFFIX, make_again, refuse_changes
+from shoal.cli.told import tell
 
 
 def run(
@@ -40,7 +42,7 @@ def run(
     Parameters
     ----------
     scenario
-        A preset's name (see `shoal presets`) or a TOML file.
+        A preset's name (see `shoal presets`), a TOML file, or a log of changes (.jsonl) that `shoal watch` saved.
     neighbors
         k: every agent hears its k nearest others; or all.
     fast
@@ -94,6 +96,11 @@ def run(
     }
     check_most(runs=runs, jobs=jobs)
     check_places(out, figure)
+    if scenario.endswith(SUFFIX):
+        asked_of_log = [*changes.values(), target_track, track_id, assignments]
+        refuse_changes(scenario, asked_of_log, runs=runs, device=device)
+        tell(make_again(scenario, every, out), out, figure, json_)
+        return
     table = edited_table(scenario, changes, assignments or [], target_track, track_id)
     chosen = scenario_from(table, where=scenario)
     asked = read_table(scenario).get("network", {}).get("neighbors")
@@ -102,20 +109,4 @@ def run(
     tell_of_compiling(chosen)
     with progress_bar(f"{chosen.name}, {runs} x {chosen.steps:,} steps") as progress:
         record = simulate(chosen, runs=runs, jobs=jobs, device=device, every=every, out=out, progress=progress)
-    for each in record.provenance["notes"]:
-        note(each)
-    if out:
-        note(f"record: {out} (shoal show {out})")
-    if json_:
-        from shoal.cli.summary import print_json
-
-        print_json(record)
-    else:
-        from shoal.cli.table import print_record
-
-        print_record(record)
-    if figure:
-        from shoal.study.plot import save, summary
-
-        save(summary(record), figure)
-        note(f"figure: {figure}")
+    tell(record, out, figure, json_)

@@ -15,6 +15,7 @@ from shoal.cli.showing import serving_outlook
 from shoal.cli.startup import load_compiler, tell_of_compiling
 
 if TYPE_CHECKING:
+    from shoal.run.change_log import ChangeLog
     from shoal.viewer.session import Session
 
 
@@ -40,6 +41,7 @@ def watch(
     port: Integer = 0,
     browser: bool = True,
     out: Path | None = None,
+    replay_changes: Path | None = None,
 ) -> None:
     """Watch a run in the browser and change it as it runs. Ctrl-C ends it.
 
@@ -82,8 +84,11 @@ def watch(
     browser
         Open the page in the browser.
     out
-        Save a record of the steps watched to this new folder, at the end of the run or at Ctrl-C. Nothing can be
-        changed meanwhile: a record is of one scenario.
+        Save a record of the steps watched to this new folder, at the end of the run or at Ctrl-C. What you change
+        meanwhile is logged beside it, and the record says that it was steered. Fleets stay: a record has one roster.
+    replay_changes
+        A log of changes that the page saved: its scenario runs, and the same is changed at the same steps. Then time
+        stops, and the run is yours.
     """
     load_compiler()
     from shoal.core.errors import ScenarioError
@@ -111,6 +116,13 @@ def watch(
             raise ScenarioError("--fleet", problem, fix)
         _watch_fleet(fleet, host, port, browser)
         return
+    if replay_changes is not None:
+        asked = [source, against, target_track, track_id, assignments, *changes.values()]
+        if any(each is not None for each in asked):
+            problem, fix = "says what is run, and how it changes", "leave out what would change it"
+            raise ScenarioError("--replay-changes", problem, fix)
+        _watch_again(replay_changes, speed, host, port, browser, out)
+        return
     source = source or "oceans2020"
     if Path(source).is_dir():
         asked = [against, out, target_track, track_id, assignments, *changes.values()]
@@ -124,6 +136,22 @@ def watch(
             raise ScenarioError("--out", "keeps one run, and --against shows two", "leave out one of them")
         tables.append(_other(tables[0], against))
     _watch(tables, [source, against or ""], speed, host, port, browser, out)
+
+
+def _watch_again(file: Path, speed: float, host: str, port: int, browser: bool, out: Path | None) -> None:
+    from shoal.core.errors import ScenarioError
+    from shoal.run.change_log import read_log
+    from shoal.run.replay_changes import planned
+
+    log = read_log(file)
+    tables = [log.settings(run).table for run in range(len(log.runs))]  # refused now, as what --out cannot hold
+    if out and len(tables) > 1:
+        raise ScenarioError("--out", "keeps one run, and the log is of two", "leave out one of them")
+    if out:
+        planned(log)
+    if log.note:
+        note(log.note)
+    _watch(tables, [each.name for each in log.runs], speed, host, port, browser, out, script=log)
 
 
 def _watch_fleet(address: str, host: str, port: int, browser: bool) -> None:
@@ -153,6 +181,7 @@ def _watch(
     port: int,
     browser: bool,
     out: Path | None,
+    script: "ChangeLog | None" = None,
 ) -> None:
     from shoal.record.files import RecordFolder
     from shoal.scenario.load import scenario_from
@@ -166,7 +195,8 @@ def _watch(
     if out:
         with RecordFolder(out):  # refused now, not after the run
             pass
-    session = Session(tables, names=names, speed=speed, limit=scenarios[0].steps if out else None)
+    last = script.last if script else scenarios[0].steps
+    session = Session(tables, names=names, speed=speed, limit=last if out else None, script=script)
     for run in session.runs:
         for each in run.simulation.notes:
             note(each)
@@ -188,15 +218,18 @@ def _watch(
 
 
 def _record(session: "Session", out: Path) -> None:
-    """Save what was watched: the same steps of the same scenario and seed again, which are the same bits."""
+    """Save what was watched: the same steps and changes of the same scenario and seed again: the same bits."""
+    from shoal.run.replay_changes import replay_changes
     from shoal.run.simulate import simulate
     from shoal.scenario.schema import Scenario
 
-    planned = session.runs[0].simulation.scenario
-    watched = Scenario.model_validate({**dict(planned), "steps": session.number})
-    with progress_bar(f"recording {watched.steps:,} steps") as progress:
-        simulate(watched, out=out, progress=progress)
-    note(f"record: {out}, {watched.steps:,} of {planned.steps:,} steps (shoal show {out})")
+    planned, steps = session.runs[0].simulation.scenario, session.number
+    with progress_bar(f"recording {steps:,} steps") as progress:
+        if session.helm.changes:
+            replay_changes(session.helm.log, out=out, progress=progress)
+        else:
+            simulate(Scenario.model_validate({**dict(planned), "steps": steps}), out=out, progress=progress)
+    note(f"record: {out}, {steps:,} of {planned.steps:,} steps (shoal show {out})")
 
 
 def _play_record(folder: str, host: str, port: int, browser: bool) -> None:

@@ -73,6 +73,7 @@ class RecordFolder:
         }
         np.savez(self._whole.partial / "tallies.npz", **tallies)  # type: ignore[arg-type]
         np.savez(self._whole.partial / "roster.npz", **record.roster._asdict())
+        plain = ("roster.npz", "tallies.npz", *self._texts)
         content: dict[str, Any] = {
             "format": FORMAT,
             "summary": record.summary(),
@@ -80,7 +81,7 @@ class RecordFolder:
             "facts": record.facts._asdict(),
             "scenario": record.scenario.model_dump(mode="json"),
             "sha256": {
-                **{name: sum_of_file(self._whole.partial / name) for name in ("roster.npz", "tallies.npz", *self._texts)},
+                **{name: sum_of_file(self._whole.partial / name) for name in plain},
                 **{
                     f"{folder}/{name}.npy": each
                     for folder, writer in sorted(self._writers.items())

@@ -25,7 +25,7 @@ def carry_over(
     ----------
     scenario : what is from now on
     origin : (N,) for each agent the one that it was, -1 for a new one; default: agents keep their numbers
-    sums : the sums of the tally go on, which must be of the same fleets, agents, targets and steps; else they start over
+    sums : those of the tally go on, which must be of the same fleets, agents, targets and steps; else they start over
 
     Raises
     ------
@@ -52,8 +52,8 @@ def carry_over(
         new.begin()
         _carry_memory(old, new, now, here, there)
         _carry_air(old, new, now, here, there)
-        for mine, theirs in zip(now.tally, before.tally if sums else (), strict=False):
-            mine[...] = theirs
+        for sum_, known in zip(now.tally, before.tally if sums else (), strict=False):
+            sum_[...] = known
     return new
 
 

@@ -5,6 +5,7 @@ A text of JSON lines: the first says what was run, each other is one change, see
 
 import json
 from collections.abc import Mapping, Sequence
+from datetime import date, time
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -15,6 +16,7 @@ from shoal.core.text import cut
 from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.run.changes import READER, Restart, Steering, words_of
 from shoal.run.settings import Settings, Table
+from shoal.scenario.strategy_choice import StrategyChoice
 
 FORMAT = 1
 LARGEST = 100_000_000  # bytes of a log's file
@@ -60,7 +62,7 @@ class ChangeLog(NamedTuple):
             "runs": [{"name": each.name, "hash": each.hash, "scenario": each.table} for each in self.runs],
         }
         lines = [head, *({"step": step, **said.model_dump(exclude_none=True)} for step, said in self.entries)]
-        return "".join(json.dumps(line, default=str) + "\n" for line in lines)
+        return "".join(json.dumps(line, default=_as_json) + "\n" for line in lines)
 
     def settings(self, run: int) -> Settings:
         """Return the settings that a run began with.
@@ -159,6 +161,15 @@ def log_of(text: str, where: str = "log") -> ChangeLog:
     for number, line in lines[1:]:
         entries.append(_entry(_object(line, where, number), f"{where}:{number}", len(runs), entries[-1:]))
     return ChangeLog(runs, tuple(entries), step, version)
+
+
+def _as_json(value: Any) -> Any:
+    """What a table may hold that JSON has no word for: dates, and strategies that are loaded."""
+    if isinstance(value, (date, time)):
+        return value.isoformat()
+    if isinstance(value, StrategyChoice):
+        return value.flat()
+    raise TypeError(f"a log cannot hold a {type(value).__name__}")
 
 
 def _entry(said: dict[str, Any], where: str, runs: int, before: list[Entry]) -> Entry:

@@ -13,7 +13,7 @@ from shoal.record.files import LOG, RecordFolder
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 from shoal.run.change_log import ChangeLog, Entry, read_log, since_restart, told
-from shoal.run.changes import Change, Restart
+from shoal.run.changes import Add, Change, Restart
 from shoal.run.facts import facts_of
 from shoal.run.keep import Keep
 from shoal.run.settings import Settings
@@ -52,18 +52,13 @@ def replay_changes(
     known = log if isinstance(log, ChangeLog) else read_log(log)
     if every is not None and every < 1:
         raise ScenarioError("every", f"is {every}", "ask for 1 or more")
-    entries, steps = known.of_run(run), known.last
-    if steps < 1:
-        raise ScenarioError("log", "is of a run without a step", "save the log later")
-    begin = since_restart(entries)
-    settings = _after(known.settings(run), entries[:begin]).lasting(steps)
-    entries = entries[begin:]
+    settings, entries, fields = planned(known, run)
     begun, started = time.perf_counter(), datetime.now(UTC)
     with RecordFolder(out) if out is not None else nullcontext() as folder:
         keep = Keep(settings.scenario, every, 1, folder)
         steered = SteeredRun(settings, recorded=True, sums=True)
         first = steered.simulation
-        frames = _run(steered, entries, keep, _fields(settings, entries), progress or (lambda done, total: None))
+        frames = _run(steered, entries, keep, fields, progress or (lambda done, total: None))
         notes = [*first.notes, *keep.notes, *filter(None, [known.note])]
         record = Record(
             scenario=settings.scenario,
@@ -80,27 +75,40 @@ def replay_changes(
         return folder.finish(record)
 
 
+def planned(log: ChangeLog, run: int = 0) -> tuple[Settings, tuple[Entry, ...], list[str]]:
+    """Return what one record of a log holds: settings since the last restart, changes to them, fields of memory.
+
+    Raises
+    ------
+    ScenarioError : there is no such run, it has no step, or its changes are not of what one record can hold
+    """
+    entries, steps = log.of_run(run), log.last
+    if steps < 1:
+        raise ScenarioError("log", "is of a run without a step", "save the log later")
+    begin = since_restart(entries)
+    settings = _after(log.settings(run), entries[:begin]).lasting(steps)
+    facts, now = facts_of(settings.scenario), settings
+    fields = dict.fromkeys(crew_of(settings.scenario).memory)
+    for step, steering in entries[begin:]:
+        now = _after(now, (Entry(step, steering),))
+        if isinstance(steering, Add) or facts_of(now.scenario) != facts:
+            problem = "changes fleets or the size of a report, and a record has one of each"
+            raise ScenarioError(f"log, step {step:,}", problem, "look at it: shoal watch --replay-changes")
+        fields |= dict.fromkeys(crew_of(now.scenario).memory)
+    return settings, entries[begin:], list(fields)
+
+
 def _after(settings: Settings, entries: tuple[Entry, ...]) -> Settings:
-    """The settings that a restart begins with, after changes; who was removed is back."""
+    """What settings are after changes; who was removed is still of them."""
     for _, steering in entries:
         match steering:
             case Change(changes=changes):
                 settings = settings.changed(changes)
+            case Add(fleet=fleet):
+                settings = settings.joined(settings.scenario.fleets[fleet].name)
             case Restart(seed=seed):
                 settings = settings.seeded(seed)
-            case _ if steering.do == "add":
-                raise ScenarioError("log", "adds buoys, and a record has one roster", "watch it with --replay-changes")
     return settings
-
-
-def _fields(settings: Settings, entries: tuple[Entry, ...]) -> list[str]:
-    """Names of everything that agents ever remember."""
-    names = dict.fromkeys(crew_of(settings.scenario).memory)
-    for _, steering in entries:
-        if isinstance(steering, Change):
-            settings = settings.changed(steering.changes)
-            names |= dict.fromkeys(crew_of(settings.scenario).memory)
-    return list(names)
 
 
 def _run(
@@ -115,7 +123,9 @@ def _run(
         while (now := steered.simulation.number) < steps or waiting:
             while waiting and waiting[0].step <= now:
                 steered.steer(waiting.pop(0).steering)
-            stop = min([steps, now + chunk_steps(steered.settings.scenario.agents), *(each.step for each in waiting[:1])])
+            stop = min(
+                [steps, now + chunk_steps(steered.settings.scenario.agents), *(each.step for each in waiting[:1])]
+            )
             part = steered.simulation.advance(stop - now, every=keep.every, tail=keep.tail)
             if part:
                 (writer.append if writer else parts.append)(_with_fields(part, fields))

@@ -50,6 +50,7 @@ class Client:
         self._nonsense = 0
         self._due = 0.0  # [s] of the loop's clock: when all that was heard would have come at its pace
         self._errors: deque[str] = deque(maxlen=UNHEARD)
+        self._file: str | None = None  # asked for, and not sent yet
         loop = asyncio.get_running_loop()
 
         def changed() -> None:
@@ -58,7 +59,10 @@ class Client:
         def failed(message: str) -> None:
             _call(loop, lambda: self._fail(message))
 
-        self._watcher = Watcher(changed, failed)
+        def sent(message: str) -> None:
+            _call(loop, lambda: self._send(message))
+
+        self._watcher = Watcher(changed, failed, sent)
 
     async def serve(self) -> None:
         """Until the page is closed."""
@@ -88,6 +92,9 @@ class Client:
             self._news.clear()
             while self._errors:
                 await self._socket.send_text(as_json({"type": "error", "message": self._errors.popleft()}))
+            if self._file is not None:
+                file, self._file = self._file, None
+                await self._socket.send_text(file)
             view = self._show.view
             for run, scene in enumerate(view.kept.scenes):
                 if scene not in scenes[run : run + 1]:
@@ -95,6 +102,8 @@ class Client:
             scenes = view.kept.scenes
             if view.kept is not kept:
                 kept = view.kept
+                for numbers in kept.numbers:
+                    await self._socket.send_text(numbers)
                 for frame in kept.frames:
                     await self._socket.send_bytes(frame)
             await self._socket.send_text(view.status)
@@ -122,6 +131,10 @@ class Client:
         now = asyncio.get_running_loop().time()
         self._due = max(self._due, now) + PACE
         return self._due > now + BURST * PACE
+
+    def _send(self, file: str) -> None:
+        self._file = file  # whoever asks again before the last one is sent gets the newest
+        self._news.set()
 
     def _fail(self, message: str) -> None:
         self._errors.append(message)

@@ -7,7 +7,8 @@ from shoal.viewer.bulletin import Bulletin
 from shoal.viewer.requests import Pause, Play, Request, Seek, Step
 from shoal.viewer.ring import Kept, Ring
 from shoal.viewer.scene import as_json
-from shoal.viewer.session import POINTS, ROOM, history_of
+from shoal.viewer.sent import history_of
+from shoal.viewer.session import POINTS, ROOM
 from shoal.viewer.worker import View, Watcher
 
 

@@ -48,7 +48,15 @@ class Seek(Asked):
     step: int = Field(ge=0, lt=2**62)
 
 
-Request = Play | Pause | Step | Speed | Seek | Restart | Change | Kill | Add | Drag
+class Export(Asked):
+    """Send the page a text to save: the scenario as it is set now, or the log of changes."""
+
+    do: Literal["export"]
+    what: Literal["scenario", "changes"]
+    run: int = 0
+
+
+Request = Play | Pause | Step | Speed | Seek | Restart | Change | Kill | Add | Drag | Export
 _READER: TypeAdapter[Request] = TypeAdapter(Annotated[Request, Field(discriminator="do")])
 
 

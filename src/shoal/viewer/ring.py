@@ -10,11 +10,12 @@ import numpy.typing as npt
 
 
 class Kept(NamedTuple):
-    """What was shown at a step: for each run the message that says its scene, and its frame."""
+    """What was shown at a step: for each run the messages that say its scene and its numbers, and its frame."""
 
     step: int
     scenes: tuple[str, ...]
     frames: tuple[bytes, ...]
+    numbers: tuple[str, ...] = ()
 
 
 class Ring:
@@ -86,4 +87,4 @@ def evenly(steps: npt.NDArray[np.int64], frames: int) -> npt.NDArray[np.int64]:
 
 
 def _size(kept: Kept) -> int:
-    return sum(map(len, kept.frames))
+    return sum(map(len, (*kept.frames, *kept.numbers)))

@@ -3,29 +3,17 @@
 from collections.abc import Callable, Sequence
 
 from shoal.core.errors import ScenarioError
+from shoal.run.change_log import ChangeLog
+from shoal.run.changes import Restart
+from shoal.run.settings import Table
 from shoal.run.simulate import chunk_steps
-from shoal.scenario.crew import crew_of
-from shoal.scenario.schema import Scenario
 from shoal.strategies import CATALOGUE
-from shoal.viewer.frame import SCALARS, gauges_of
-from shoal.viewer.live import LiveRun, Table
-from shoal.viewer.requests import (
-    FASTEST,
-    SLOWEST,
-    Add,
-    Change,
-    Drag,
-    Kill,
-    Pause,
-    Play,
-    Request,
-    Restart,
-    Seek,
-    Speed,
-    Step,
-)
+from shoal.viewer.helm import Helm
+from shoal.viewer.live import LiveRun
+from shoal.viewer.requests import FASTEST, SLOWEST, Export, Pause, Play, Request, Seek, Speed, Step
 from shoal.viewer.ring import Kept, Ring
 from shoal.viewer.scene import as_json, describe
+from shoal.viewer.sent import file_of, history_of, words_at_end
 
 SPEEDS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 ROOM = 64_000_000  # bytes of frames that can be sought
@@ -41,14 +29,15 @@ class Session:
     ----------
     tables : one, or two to compare; their seeds and time-steps are the same
     names : what errors call them
-    limit : no step is made from this one on; then nothing can be changed (of a run that is recorded)
+    limit : no step is made from this one on (of a run that is recorded)
+    script : a log whose changes are made when their steps come; until its end nobody else can change anything
     speed : times real time
     room : bytes of frames kept to go back to
 
     Attributes
     ----------
     shown : the frame that is shown
-    playing, speed, busy : see docs/reference/view-protocol.md
+    playing, speed, busy, ended : see docs/reference/view-protocol.md
     on_busy : called when `busy` changes, while the caller waits
 
     Raises
@@ -62,13 +51,15 @@ class Session:
         *,
         names: Sequence[str] = (),
         limit: int | None = None,
+        script: ChangeLog | None = None,
         speed: float = 1.0,
         room: int = ROOM,
     ) -> None:
         if not SLOWEST <= speed <= FASTEST:
             raise ScenarioError("speed", f"is {speed:g}", f"give {SLOWEST:g} to {FASTEST:g} times real time")
         where = [*names, *("scenario" for _ in tables)]
-        self.runs = [LiveRun(table, place, where=where[place]) for place, table in enumerate(tables)]
+        recorded = limit is not None
+        self.runs = [LiveRun(table, n, where=where[n], recorded=recorded) for n, table in enumerate(tables)]
         self.time_step = self.runs[0].simulation.scenario.time_step
         for run in self.runs:
             if run.simulation.scenario.time_step != self.time_step:
@@ -77,8 +68,9 @@ class Session:
         self.playing = True
         self.speed = speed
         self.busy: str | None = None
+        self.ended: str | None = None
         self.on_busy: Callable[[], None] = lambda: None
-        self._loaded = {run.simulation.crew.name for run in self.runs}
+        self.helm = Helm(self.runs, where, script, self._set_busy)
         self._ring = Ring(room)
         self._keep()
 
@@ -118,6 +110,9 @@ class Session:
                 "last": self._ring.newest.step,
                 "at_end": self.shown is self._ring.newest,
                 "busy": self.busy,
+                "ended": self.ended,
+                "script": self.helm.script_end,
+                "changes": self.helm.changes,
             }
         )
 
@@ -129,12 +124,10 @@ class Session:
     def play_on(self) -> float:
         """Run to the next frame of the speed, keep it, show it; return how long it lasts [s]."""
         begin, stride = self.number, self.stride()
-        over = min((run.ends for run in self.runs if run.ends is not None and run.ends > begin), default=None)
-        until = begin - begin % stride + stride
-        self._advance(until if over is None else min(until, over))
-        if self.done or self.number == over:  # where a recorded track is over, time stops once
+        self._advance(self._pausing_at(begin - begin % stride + stride))
+        if self.done:
             self.playing = False
-        return (self.number - begin) * self.time_step / self.speed
+        return max(0, self.number - begin) * self.time_step / self.speed
 
     def stride(self) -> int:
         """Steps between frames: as many as the speed asks for, and no more than the engine does in a moment."""
@@ -163,8 +156,22 @@ class Session:
             case Step(steps=steps):
                 self.playing = False
                 self._step(steps)
+            case Export():
+                raise ScenarioError("request", "is answered to whoever asks", "ask the worker")
             case _:
-                self._alter(request)
+                if self.done:
+                    raise ScenarioError("request", "the record is complete", "watch without --out to go on")
+                self.helm.obey(request)
+                self._keep(anew=isinstance(request, Restart))
+
+    def export(self, request: Export) -> str:
+        """The message that brings a page the text of a file.
+
+        Raises
+        ------
+        ScenarioError : there is no such run
+        """
+        return file_of(request, self.helm.run(request.run), self.helm.log)
 
     def _step(self, steps: int) -> None:
         if steps > 0 and self.shown is self._ring.newest:
@@ -172,66 +179,39 @@ class Session:
         else:
             self.shown = self._ring.beside(self.shown.step, steps)
 
-    def _alter(self, request: Request) -> None:
-        if self.limit is not None:
-            raise ScenarioError("request", "nothing can be changed while a record is written", "watch without --out")
-        match request:
-            case Restart(seed=seed):
-                for run in self.runs:
-                    run.restart(seed)
-                self._ring.clear()
-            case Change(run=place, changes=changes):
-                run = self._run(place)
-                self._warn_of_loading(run.scenario_with(changes)[1])
-                try:
-                    run.change(changes)
-                finally:
-                    self._set_busy(None)
-            case Kill(run=place, agent=agent):
-                self._run(place).kill(agent)
-            case Add(run=place, fleet=fleet, x=x, y=y):
-                self._run(place).add(fleet, x, y)
-            case Drag(run=place, target=target, x=x, y=y):
-                self._run(place).drag(target, x, y)
-        self._keep()
-
-    def _run(self, place: int) -> LiveRun:
-        if not 0 <= place < len(self.runs):
-            raise ScenarioError("run", f"is {place}", f"name one from 0 to {len(self.runs) - 1}")
-        return self.runs[place]
-
     def _advance(self, until: int) -> None:
-        last = until if self.limit is None else min(until, self.limit)
-        for run in self.runs:
-            run.advance(max(0, last - run.simulation.number))
-        self._keep()
+        restarted = self.helm.advance(until if self.limit is None else min(until, self.limit))
+        if self.helm.end_script():
+            self.playing = False
+        self._keep(anew=restarted)
 
-    def _keep(self) -> None:
-        """Keep the current frame, and show it."""
+    def _pausing_at(self, until: int) -> int:
+        """Until where to play: where a log or a recorded track ends, time stops once."""
+        ends = [self.helm.stop_of_script(), *(run.ends for run in self.runs)]
+        stop = min((each for each in ends if each is not None and self.number < each <= until), default=None)
+        if stop is None:
+            return until
+        self.playing = False
+        return stop
+
+    def _keep(self, anew: bool = False) -> None:
+        """Keep the current frame, and show it; `anew`: those before it were of a run that is over."""
+        if anew:
+            self._ring.clear()
+            self.ended = None
+        self._tell_of_end()
         scenes = tuple(run.message for run in self.runs)
-        self._ring.add(Kept(self.number, scenes, tuple(run.frame() for run in self.runs)))
+        frames = tuple(run.frame() for run in self.runs)
+        self._ring.add(Kept(self.number, scenes, frames, tuple(run.numbers() for run in self.runs)))
         self.shown = self._ring.newest
 
-    def _warn_of_loading(self, scenario: Scenario) -> None:
-        name = crew_of(scenario).name
-        if name not in self._loaded:
-            self._set_busy(f"loading strategy {name!r}; the very first time it is compiled, for some 10 s")
-            self._loaded.add(name)
+    def _tell_of_end(self) -> None:
+        """Say the total once all recorded tracks have ended."""
+        ends = [run.ends for run in self.runs]
+        if self.ended is None and all(end is not None and end <= self.number for end in ends):
+            self.ended = " ".join(words_at_end(run) for run in self.runs)
 
     def _set_busy(self, sentence: str | None) -> None:
         if self.busy != sentence:
             self.busy = sentence
             self.on_busy()
-
-
-def history_of(run: int, kept: Sequence[Kept]) -> str:
-    """The message that fills the charts of a run with some of its frames."""
-    gauges = [gauges_of(each.frames[run]) for each in kept]
-    return as_json(
-        {
-            "type": "history",
-            "run": run,
-            "step": [each.step for each in kept],
-            **{name: [getattr(each, name) for each in gauges] for name in SCALARS},
-        }
-    )

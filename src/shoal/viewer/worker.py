@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from shoal.core.errors import ShoalError
 from shoal.core.waiting import wait_for
-from shoal.viewer.requests import Request
+from shoal.viewer.requests import Export, Request
 from shoal.viewer.ring import Kept
 from shoal.viewer.session import Session
 
@@ -26,10 +26,11 @@ class View(NamedTuple):
 
 
 class Watcher(NamedTuple):
-    """What hears, from the worker's thread, that `view` has changed; that something failed."""
+    """What hears, from the worker's thread, that `view` has changed; that something failed; a file it asked for."""
 
     changed: Callable[[], None]
     failed: Callable[[str], None]
+    sent: Callable[[str], None] = lambda message: None
 
 
 class _Asked(NamedTuple):
@@ -147,6 +148,9 @@ class Worker:
 
     def _obey(self, asked: _Asked) -> None:
         try:
+            if isinstance(asked.request, Export):
+                asked.watcher.sent(self.session.export(asked.request))
+                return
             self.session.obey(asked.request)
         except ShoalError as error:
             asked.watcher.failed(str(error))

@@ -1,0 +1,30 @@
+"""What is told of a record that was just made: its notes, its table or its JSON, and its figure."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from shoal.cli.progress import note
+
+if TYPE_CHECKING:
+    from shoal.record.record import Record
+
+
+def tell(record: "Record", out: Path | None, figure: Path | None, as_json: bool) -> None:
+    """Print a record, and draw it if that was asked for."""
+    for each in record.provenance["notes"]:
+        note(each)
+    if out:
+        note(f"record: {out} (shoal show {out})")
+    if as_json:
+        from shoal.cli.summary import print_json
+
+        print_json(record)
+    else:
+        from shoal.cli.table import print_record
+
+        print_record(record)
+    if figure:
+        from shoal.study.plot import save, summary
+
+        save(summary(record), figure)
+        note(f"figure: {figure}")
