@@ -9,10 +9,10 @@ GAUGES = ("time_on_target", "recent", "xi", "xi_now", "engaged")
 
 def decode(data):
     """The frame at the beginning of some bytes; `size` is where it ends."""
-    version, run, epoch, step, agents, targets, link_bytes = struct.unpack_from("<BBHIIII", data)
-    assert version in (2, 3)
-    detailed = agents if version == 2 else 0
-    place = struct.calcsize("<BBHIIII")
+    version, run, epoch, step, agents, targets, link_bytes, fields = struct.unpack_from("<BBHIIIHH", data)
+    assert version in (3, 4)
+    detailed = agents if version == 4 else 0
+    place = struct.calcsize("<BBHIIIHH")
 
     def take(letter, count):
         nonlocal place
@@ -25,6 +25,7 @@ def decode(data):
     frame.phi = numbers[5:]
     frame.x, frame.y = take("f", agents), take("f", agents)
     frame.vx, frame.vy, frame.repulsion = (take("f", detailed) for _ in range(3))
+    frame.memory = [take("f", agents) for _ in range(fields)]
     frame.target_x, frame.target_y = take("f", targets), take("f", targets)
     frame.degree = take("H", detailed)
     bits = take("B", agents)

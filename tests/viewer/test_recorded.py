@@ -99,8 +99,11 @@ class TestRecordedScene:
         value = record.estimate("time_on_target")
         assert told["time_on_target"] == {
             "name": "time_on_target",
-            "label": "time on target",
+            "label": record.metrics["time_on_target"].words,
             "unit": "1",
+            "sentence": record.metrics["time_on_target"].sentence,
+            "least": 0.0,
+            "most": 1.0,
             "mean": value.mean,
             "low": value.ci95[0],
             "high": value.ci95[1],
@@ -110,5 +113,12 @@ class TestRecordedScene:
         history = recorded_scene(record, 0)["history"]
         assert history["step"] == list(range(0, STEPS, STEPS // 20))
         watched = record.trajectories[0].on_target.any(axis=1).reshape(20, -1)
-        assert history["time_on_target"] == pytest.approx(list(watched.mean(axis=1)))
-        assert len(history["xi"]) == 20
+        assert history["values"]["time_on_target"] == pytest.approx(list(watched.mean(axis=1)))
+        assert len(history["values"]["xi"]) == 20
+
+    def test_what_can_be_charted_is_what_a_table_lists_and_varies(self, record):
+        told = recorded_scene(record, 0)
+        names = [each["name"] for each in told["series"]]
+        assert names[:3] == ["time_on_target", "xi", "engaged"]
+        assert set(names) == {name for name in record.listed() if not record.metrics[name].once}
+        assert list(told["history"]["values"]) == names

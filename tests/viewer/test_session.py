@@ -10,8 +10,10 @@ from scenarios import changed
 from shoal.core.errors import ScenarioError
 from shoal.run.simulation import Simulation
 from shoal.scenario.load import read_table, scenario_from
+from shoal.scenario.on_track import put_on_track
 from shoal.viewer.requests import parse_request
 from shoal.viewer.session import POINTS, Session
+from track_files import eastward
 
 
 def table(**changes):
@@ -228,24 +230,54 @@ class TestRecording:
     @pytest.mark.parametrize(
         "request_",
         [
-            {"do": "restart"},
-            {"do": "change", "changes": {"neighbors": 5}},
-            {"do": "kill", "agent": 1},
+            {"do": "change", "changes": {"fast": 20}},
+            {"do": "change", "changes": {"strategy": "shared-sighting"}},
             {"do": "add", "x": 0.0, "y": 0.0},
-            {"do": "drag", "x": 0.0, "y": 0.0},
         ],
     )
-    def test_nothing_can_be_changed(self, request_):
+    def test_what_one_record_cannot_hold_is_refused(self, request_):
         one = session(limit=10)
         before = bits(one)
-        with pytest.raises(ScenarioError, match="while a record is written"):
+        with pytest.raises(ScenarioError, match="a record has one of each"):
             one.obey(parse_request(json.dumps(request_)))
         assert bits(one) == before
+        assert one.helm.log.entries == ()
+
+    def test_all_else_can_be_changed_until_it_is_complete(self):
+        one = played(session(limit=10), 4)
+        ask(one, "change", changes={"neighbors": 5})
+        ask(one, "kill", agent=3)
+        ask(one, "drag", x=1.0, y=1.0)
+        played(one, 10)
+        assert [entry.step for entry in one.helm.log.entries] == [4, 4, 4]
+        with pytest.raises(ScenarioError, match="the record is complete"):
+            ask(one, "restart")
 
     def test_it_can_be_sought(self):
         one = played(session(limit=10), 5)
         ask(one, "seek", step=2)
         assert shown(one).step == 2
+
+
+class TestTracks:
+    def test_time_stops_once_where_all_tracks_end_and_the_total_is_said(self, tmp_path):
+        track = eastward(tmp_path, [11.0, 11.001], seconds_apart=600)
+        followed = put_on_track(table(), str(track), None) | {"time_step": 10.0}
+        one = session(followed, speed=1000)
+        end = json.loads(one.runs[0].message)["scene"]["track_end"]
+        assert end == 61
+        while one.playing:
+            one.play_on()
+        assert one.number == end
+        assert not shown(one).present[0]
+        assert status(one)["ended"].startswith("The recorded track ends here: time on target ")
+        ask(one, "play")
+        one.play_on()
+        assert one.number > end
+
+    def test_other_targets_have_no_end(self):
+        one = played(session(speed=1000), 3)
+        assert (json.loads(one.runs[0].message)["scene"]["track_end"], one.ended) == (None, None)
 
 
 class TestHistory:

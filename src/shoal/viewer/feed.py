@@ -11,6 +11,7 @@ from shoal.scenario.schema import Scenario
 from shoal.viewer.bulletin import Bulletin
 from shoal.viewer.frame import pack
 from shoal.viewer.gauging import Gauging
+from shoal.viewer.offered import FIRST, describe_metric
 from shoal.viewer.scene import scene_of
 
 EVERY = 0.04  # [s] between two bulletins, at least
@@ -31,6 +32,7 @@ class Feed:
         self._gauging = Gauging(scenario)
         self._due = 0.0
         scene = scene_of(scenario, crew_of(scenario).memory, has_links=link_bytes(scenario.agents) > 0)
+        scene["series"] = [describe_metric(name) for name in FIRST]
         origin = scenario.area.origin
         self._newest = Bulletin(scene, None if origin is None else (origin[0], origin[1]), speed, None, b"")
 

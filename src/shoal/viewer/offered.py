@@ -1,6 +1,7 @@
 """What can be charted of a run: each metric that says something of its scenario, as tables and figures call it."""
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
 from shoal.metrics.summary import METRICS
@@ -25,7 +26,7 @@ class Offered:
             and (not each.asked or name in scenario.metrics)
             and (name in FIRST or name in scenario.metrics or not scenario.metrics)
         ]
-        self.names = sorted(known, key=lambda name: FIRST.index(name) if name in FIRST else len(FIRST))
+        self.names = in_order(known)
 
     def told(self) -> list[dict[str, Any]]:
         """Name, label, unit and sentence of each."""
@@ -37,6 +38,11 @@ class Offered:
         return [float(f"{value:.7g}") if math.isfinite(value) else None for value in values]
 
 
+def in_order(names: Iterable[str]) -> list[str]:
+    """The names of metrics, those first that pages begin with."""
+    return sorted(names, key=lambda name: FIRST.index(name) if name in FIRST else len(FIRST))
+
+
 def describe_metric(name: str) -> dict[str, Any]:
     """What a metric is called, for pages."""
     metric = METRICS[name]
@@ -45,6 +51,6 @@ def describe_metric(name: str) -> dict[str, Any]:
         "label": metric.words,
         "unit": metric.unit,
         "sentence": metric.sentence,
-        "low": metric.low if math.isfinite(metric.low) else None,
-        "high": metric.high if isinstance(metric.high, (int, float)) and math.isfinite(metric.high) else None,
+        "least": metric.low if math.isfinite(metric.low) else None,
+        "most": metric.high if isinstance(metric.high, (int, float)) and math.isfinite(metric.high) else None,
     }

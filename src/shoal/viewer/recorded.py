@@ -11,8 +11,10 @@ from shoal.record.record import Record
 from shoal.viewer.conditions import kept_comings_and_goings
 from shoal.viewer.frame import FULL, RECENT, Gauges, pack
 from shoal.viewer.geography import geography_of
+from shoal.viewer.offered import describe_metric, in_order
 from shoal.viewer.scene import scene_of
 
+MOST_STEERED = 1000  # changes of a steered run that a page is told
 _SHOWN = (  # besides those of installed packages
     "time_on_target", "xi", "engaged", "stationary", "response",
     "first_detection", "losses", "reacquisition", "coverage",
@@ -23,6 +25,7 @@ def recorded_scene(record: Record, run: int) -> dict[str, Any]:
     """The scene of a record, with its metrics, their intervals, and their course over the batches of one run."""
     shown = [name for name, each in record.metrics.items() if name in _SHOWN or each.package]
     estimates = {name: record.estimate(name) for name in shown}
+    charted = [name for name in in_order(record.listed()) if not record.metrics[name].once]
     kept = record.trajectories[run]
     starts = np.concatenate([[0], np.cumsum(record.tallies[run].batch_steps)[:-1]])
     return {
@@ -35,19 +38,19 @@ def recorded_scene(record: Record, run: int) -> dict[str, Any]:
         ),
         "metrics": [
             {
-                "name": name,
-                "label": record.metrics[name].words,
-                "unit": record.metrics[name].unit,
+                **describe_metric(name),
                 "mean": value.mean,
                 "low": value.ci95[0] if value.ci95 else None,
                 "high": value.ci95[1] if value.ci95 else None,
             }
             for name, value in estimates.items()
         ],
+        "series": [describe_metric(name) for name in charted],
         "history": {
             "step": [int(step) for step in starts],
-            **{name: record.of_batches(name, run).tolist() for name in ("time_on_target", "xi")},
+            "values": {name: record.of_batches(name, run).tolist() for name in charted},
         },
+        "steered": [{"step": step, "words": words} for step, words in record.steered[:MOST_STEERED]],
     }
 
 

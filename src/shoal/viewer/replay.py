@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from shoal.core.errors import RecordError, ScenarioError
 from shoal.record.record import Record
-from shoal.viewer.frame import FULL, frame_bytes
+from shoal.viewer.frame import FULL, frame_bytes, remembered
 from shoal.viewer.page import inline_page
 from shoal.viewer.recorded import recorded_frames, recorded_scene
 from shoal.viewer.ring import evenly
@@ -37,14 +37,15 @@ def replay_page(record: Record, *, frames: int = FRAMES, part: Part = "all") -> 
     if not record.trajectories:
         raise RecordError("record", "keeps no frames", "run the scenario again with --out")
     run, kept = next(iter(record.trajectories.items()))
-    most = most_frames(record.facts.agents, kept.target_x.shape[1], kept.links.shape[2])
+    fields = len(remembered(kept.memory, record.facts.agents))
+    most = most_frames(record.facts.agents, kept.target_x.shape[1], kept.links.shape[2], fields)
     chosen = choose_frames(np.asarray(kept.step), min(frames, most), part)
     return inline_page(recorded_scene(record, run), b"".join(recorded_frames(record, run, chosen)))
 
 
-def most_frames(agents: int, targets: int, width: int) -> int:
-    """How many frames of so many agents, with so many bytes of links each, and targets a page has room for."""
-    return max(1, ROOM // frame_bytes(agents, targets, width, lean=agents > FULL))
+def most_frames(agents: int, targets: int, width: int, fields: int = 0) -> int:
+    """How many frames a page has room for: of agents, with `width` bytes of links and fields of memory, and targets."""
+    return max(1, ROOM // frame_bytes(agents, targets, width, fields, lean=agents > FULL))
 
 
 def choose_frames(steps: npt.NDArray[np.int64], frames: int, part: Part) -> npt.NDArray[np.int64]:

@@ -11,7 +11,7 @@ from shoal.scenario.schema import Scenario
 from shoal.scenario.strategy_choice import params_model
 from shoal.strategies import Strategy
 from shoal.viewer.conditions import Event, conditions_of
-from shoal.viewer.frame import REPULSION
+from shoal.viewer.frame import REPULSION, remembered
 
 _EXACT = 2**53  # beyond, JavaScript's numbers have gaps
 
@@ -32,6 +32,7 @@ def scene_of(
     geography : see geography.py
     """
     area, strategy, seed = scenario.area, scenario.strategy, scenario.seed
+    fields, units = list(memory), _units(scenario)
     return {
         "epoch": epoch,
         "name": scenario.name,
@@ -74,6 +75,9 @@ def scene_of(
         "ends": ends,
         "geography": geography,
         "has_repulsion": REPULSION in memory,
+        "has_repulsion": REPULSION in fields,
+        "memory": [{"name": name, "unit": units.get(name, "")} for name in remembered(fields, scenario.agents)],
+        "delay": scenario.network.delay,
         "has_links": has_links,
     }
 
@@ -83,6 +87,12 @@ def _name_of(target: Any) -> str | None:
     if target.kind != "track":
         return None
     return f"{PurePath(target.file).name}{f', {target.id}' if target.id else ''}"
+
+
+def _units(scenario: Scenario) -> dict[str, str]:
+    """Unit of each field that agents remember, as far as their strategies are known here."""
+    choices = (scenario.strategy, *(fleet.strategy for fleet in scenario.fleets))
+    return {field: unit for choice in choices if choice and choice.known for field, unit in choice.known.memory.items()}
 
 
 def describe(strategy: Strategy) -> dict[str, Any]:
