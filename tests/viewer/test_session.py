@@ -264,20 +264,20 @@ class TestTracks:
         track = eastward(tmp_path, [11.0, 11.001], seconds_apart=600)
         followed = put_on_track(table(), str(track), None) | {"time_step": 10.0}
         one = session(followed, speed=1000)
-        end = json.loads(one.runs[0].message)["scene"]["track_end"]
+        end = json.loads(one.runs[0].message)["scene"]["ends"]
         assert end == 61
         while one.playing:
             one.play_on()
         assert one.number == end
         assert not shown(one).present[0]
-        assert status(one)["ended"].startswith("The recorded track ends here: time on target ")
+        assert status(one)["ended"].startswith("The recorded track ends here; time on target ")
         ask(one, "play")
         one.play_on()
         assert one.number > end
 
     def test_other_targets_have_no_end(self):
         one = played(session(speed=1000), 3)
-        assert (json.loads(one.runs[0].message)["scene"]["track_end"], one.ended) == (None, None)
+        assert (json.loads(one.runs[0].message)["scene"]["ends"], one.ended) == (None, None)
 
 
 class TestHistory:
