@@ -11,7 +11,7 @@ import { Numbers, type RunNumbers } from "./numbers";
 import { readTheme, type Theme } from "./palette";
 import { showPlace } from "./place";
 import { attachPointer } from "./pointer";
-import type { Failure, Frame, Hello, Past, Request, Scene, Status } from "./protocol";
+import type { Failure, Frame, Hello, Past, Request, SavedText, Scene, Status, Told } from "./protocol";
 import { Roll } from "./roll";
 import { drawForPrint, offerFullScreen, switchFullScreen } from "./screen";
 import type { Listener, Source } from "./source";
@@ -82,7 +82,7 @@ export class App implements Listener {
     document.body.dataset.runs = String(hello.runs);
     const letters = (this.letters = hello.runs > 1 ? ["A", "B"].slice(0, hello.runs) : [""]);
     this.stages = letters.map((letter, run) => new Stage(run, letter, (each) => this.source.tape(each)));
-    this.runs = letters.map(() => ({ history: new History(), scene: null, frame: null, since: 0, marks: [] }));
+    this.runs = letters.map(() => ({ history: new History(), scene: null, frame: null, since: 0, marks: [], past: null, told: null }));
     this.numbers = new Numbers(letters);
     document.body.dataset.of = hello.fleet ? "fleet" : "swarm";
     this.roll = hello.fleet ? new Roll() : null;
@@ -122,7 +122,17 @@ export class App implements Listener {
   }
 
   past(past: Past): void {
-    this.runs[past.run]?.history.fill(past);
+    const run = this.runs[past.run];
+    if (run) run.past = past; // until the scene says what it is of
+  }
+
+  told(told: Told): void {
+    const run = this.runs[told.run];
+    if (run) run.told = told;
+  }
+
+  file(file: SavedText): void {
+    console.log(file.text);
   }
 
   scene(run: number, scene: Scene): void {
@@ -132,6 +142,9 @@ export class App implements Listener {
     rememberFleets(scene);
     if (!this.stages[run].learn(scene)) return;
     numbers.scene = scene;
+    numbers.history.learn(scene);
+    if (numbers.past) numbers.history.fill(numbers.past);
+    numbers.past = null;
     if (scene.epoch !== before) {
       if (before !== undefined) numbers.history.cut(scene.since);
       numbers.marks = [...numbers.marks.filter((step) => step < scene.since), scene.since];
@@ -154,7 +167,7 @@ export class App implements Listener {
     const run = this.runs[frame.run];
     if (!run) return;
     run.frame = frame;
-    run.history.add(frame);
+    run.history.add(frame, run.told?.step === frame.step ? run.told.values : []);
     this.stages[frame.run].show(frame, this.status_?.playing ?? false);
     run.since = this.stages[frame.run].scene?.since ?? 0;
     this.uncounted = true;

@@ -1,16 +1,8 @@
-// Two small charts on canvases: lines over steps, and the bars of phi.
+// The bars of phi, on a canvas.
 
 import { ticks } from "./camera";
-import { count, fixed, short } from "./format";
+import { fixed, short } from "./format";
 import type { Theme } from "./palette";
-
-export interface Line {
-  step: ArrayLike<number>;
-  values: ArrayLike<number>;
-  color: string;
-  width: number;
-  dash?: number[];
-}
 
 interface Plot {
   context: CanvasRenderingContext2D;
@@ -142,17 +134,6 @@ function drawGrid({ context, left, right }: Plot, theme: Theme, most: number, to
     context.fillText(value < 10_000 ? short(value) : `${short(value / 1000)}k`, left - 5, y);
   }
   context.stroke();
-}
-
-function drawUpright({ context, top, bottom }: Plot, x: number, color: string, dash: number[]): void {
-  context.strokeStyle = color;
-  context.lineWidth = 1;
-  context.setLineDash(dash);
-  context.beginPath();
-  context.moveTo(Math.round(x) + 0.5, top);
-  context.lineTo(Math.round(x) + 0.5, bottom);
-  context.stroke();
-  context.setLineDash([]);
 }
 
 function highest(values: ArrayLike<number>): number {

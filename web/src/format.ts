@@ -21,6 +21,20 @@ export function short(value: number): string {
   return Number.isFinite(value) ? Number(value.toPrecision(3)).toString().replace("-", MINUS) : "–";
 }
 
+/** A number on an axis, or under a cursor: as many digits as its size asks for. */
+export function readable(value: number): string {
+  if (!Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  if (size >= 1000) return count(value);
+  return Number(value.toPrecision(4)).toString().replace("-", MINUS);
+}
+
+/** A value beside its name, with as many decimals as its size asks for, so that it does not jump. */
+export function steady(value: number): string {
+  const size = Math.abs(value);
+  return size >= 1000 ? count(value) : fixed(value, size >= 100 ? 0 : size >= 10 ? 1 : size >= 1 ? 2 : 3);
+}
+
 /** A time in s, min or h. */
 export function time(seconds: number): string {
   if (seconds >= 7200) return `${fixed(seconds / 3600, 2)} h`;

@@ -72,6 +72,10 @@ export class LiveSource implements Source {
           this.tape(message.run).cut(message.scene.since); // what came after was undone
         }
         return this.listener.scene(message.run, message.scene);
+      case "numbers":
+        return this.listener.told(message);
+      case "file":
+        return this.listener.file(message);
       case "status":
         return this.listener.status(message);
       case "error":

@@ -14,10 +14,18 @@ export interface Target {
   speed: number | null; // [m/s]
 }
 
-export interface Metric {
+/** What a metric is called: the engine says it, as in tables and figures. */
+export interface Series {
   name: string;
   label: string;
   unit: string;
+  sentence: string;
+  least: number | null; // bounds
+  most: number | null;
+  mean?: number | null; // of a whole record
+}
+
+export interface Metric extends Series {
   mean: number | null;
   low: number | null;
   high: number | null;
@@ -72,8 +80,13 @@ export interface Scene {
   ends: number | null; // step from which no target will be there any more
   has_repulsion: boolean;
   has_links: boolean;
+  memory?: { name: string; unit: string }[]; // what agents remember besides a_R, in the order of frames
+  delay?: number; // [steps] of reports
+  ends?: number | null; // step from which no target is there any more
+  series?: Series[];
   metrics?: Metric[];
-  history?: { step: number[]; time_on_target: (number | null)[]; xi: (number | null)[] };
+  history?: { step: number[]; values: Record<string, (number | null)[]> };
+  steered?: { step: number; words: string }[];
 }
 
 export interface Parameter {
@@ -108,6 +121,9 @@ export interface Status {
   last: number;
   at_end: boolean;
   busy: string | null;
+  ended?: string | null; // the total, once all recorded tracks are over
+  script?: number | null; // changes come from a log until this step
+  changes?: number; // made so far
 }
 
 /** The course of a run before the page was opened. */
@@ -115,6 +131,7 @@ export interface Past {
   type: "history";
   run: number;
   step: number[];
+  numbers?: (number | null)[][]; // at each step, in the order of the scene's series
   time_on_target: (number | null)[];
   recent: (number | null)[];
   xi: (number | null)[];
@@ -127,7 +144,23 @@ export interface Failure {
   message: string;
 }
 
-export type Message = Hello | Past | Status | Failure | { type: "scene"; run: number; scene: Scene };
+/** What metrics are at the step of the frame that comes next, in the order of the scene's series. */
+export interface Told {
+  type: "numbers";
+  run: number;
+  step: number;
+  values: (number | null)[];
+}
+
+/** A text to save, which this page asked for. */
+export interface SavedText {
+  type: "file";
+  what: "scenario" | "changes";
+  run: number;
+  text: string;
+}
+
+export type Message = Hello | Past | Status | Failure | Told | SavedText | { type: "scene"; run: number; scene: Scene };
 
 export type Change = string | number | boolean;
 
@@ -141,7 +174,8 @@ export type Request =
   | { do: "change"; run: number; changes: Record<string, Change> }
   | { do: "kill"; run: number; agent: number }
   | { do: "add"; run: number; fleet: number; x: number; y: number }
-  | { do: "drag"; run: number; target: number; x: number; y: number };
+  | { do: "drag"; run: number; target: number; x: number; y: number }
+  | { do: "export"; what: "scenario" | "changes"; run: number };
 
 /** The state at the start of a step, as views into the bytes that came. */
 export interface Frame {
@@ -161,6 +195,7 @@ export interface Frame {
   vx: Float32Array; // (N) [m/s]
   vy: Float32Array;
   repulsion: Float32Array; // (N) a_R [m]
+  memory: Float32Array[]; // of each field that the scene names, (N)
   targetX: Float32Array; // (T) [m]
   targetY: Float32Array;
   degree: Uint16Array; // (N) k
@@ -171,7 +206,7 @@ export interface Frame {
 }
 
 export const PHI_BINS = 11;
-const VERSION = 2;
+const VERSION = 4;
 const LEAN = 3; // the version without what can only be seen of few
 const HEAD = 84; // bytes before the agents
 const ON_TARGET = 1;
@@ -187,7 +222,7 @@ export class ProtocolError extends Error {}
 
 /** Decode one frame; throws ProtocolError on anything else. */
 export function decodeFrame(bytes: ArrayBuffer): Frame {
-  const { agents, targets, linkBytes, size, lean } = readSize(new DataView(bytes));
+  const { agents, targets, linkBytes, fields, size, lean } = readSize(new DataView(bytes));
   const detailed = lean ? 0 : agents;
   if (bytes.byteLength !== size) {
     throw new ProtocolError(`a frame of ${agents} agents has ${size} bytes, not ${bytes.byteLength}`);
@@ -217,6 +252,7 @@ export function decodeFrame(bytes: ArrayBuffer): Frame {
     vx: floats(detailed),
     vy: floats(detailed),
     repulsion: floats(detailed),
+    memory: Array.from({ length: fields }, () => floats(agents)),
     targetX: floats(targets),
     targetY: floats(targets),
   };
@@ -252,11 +288,11 @@ export function parseMessage(text: string): Message {
     throw new ProtocolError("the engine sent text that is no JSON");
   }
   const type = (message as { type?: unknown } | null)?.type;
-  if (["hello", "history", "scene", "status", "error"].includes(type as string)) return message as Message;
+  if (["hello", "history", "scene", "status", "error", "numbers", "file"].includes(type as string)) return message as Message;
   throw new ProtocolError(`the engine sent a message of unknown type ${String(type)}`);
 }
 
-function readSize(view: DataView): { agents: number; targets: number; linkBytes: number; size: number; lean: boolean } {
+function readSize(view: DataView): { agents: number; targets: number; linkBytes: number; fields: number; size: number; lean: boolean } {
   if (view.byteLength < HEAD) throw new ProtocolError(`a frame has at least ${HEAD} bytes, not ${view.byteLength}`);
   const version = view.getUint8(0);
   if (version !== VERSION && version !== LEAN) {
@@ -265,6 +301,8 @@ function readSize(view: DataView): { agents: number; targets: number; linkBytes:
   const lean = version === LEAN;
   const agents = view.getUint32(8, true);
   const targets = view.getUint32(12, true);
-  const linkBytes = view.getUint32(16, true);
-  return { agents, targets, linkBytes, size: HEAD + ((lean ? 9 : 23) + linkBytes) * agents + 9 * targets, lean };
+  const linkBytes = view.getUint16(16, true);
+  const fields = view.getUint16(18, true);
+  const each = (lean ? 9 : 23) + 4 * fields + linkBytes; // bytes of an agent
+  return { agents, targets, linkBytes, fields, size: HEAD + each * agents + 9 * targets, lean };
 }

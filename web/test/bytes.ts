@@ -12,6 +12,7 @@ export interface Made {
   version?: number; // 3: lean
   links?: number[][]; // a row of bytes for each agent
   measures?: number[];
+  memory?: number[][]; // of each field, a number for each agent
 }
 
 export function makeFrame(made: Made): ArrayBuffer {
@@ -20,9 +21,9 @@ export function makeFrame(made: Made): ArrayBuffer {
   const targets = made.targets ?? [[2, 3, 1]];
   const links = made.links ?? [];
   const lean = made.version === 3;
-  const bytes = new ArrayBuffer(84 + (lean ? 9 : 23) * agents + 9 * targets.length + links.flat().length);
+  const bytes = new ArrayBuffer(84 + (lean ? 9 : 23) * agents + 9 * targets.length + links.flat().length + 4 * (made.memory ?? []).flat().length);
   const view = new DataView(bytes);
-  view.setUint8(0, made.version ?? 2);
+  view.setUint8(0, made.version ?? 4);
   view.setUint8(1, made.run ?? 0);
   view.setUint16(2, made.epoch ?? 0, true);
   view.setUint32(4, made.step ?? 0, true);
@@ -30,6 +31,9 @@ export function makeFrame(made: Made): ArrayBuffer {
   view.setUint32(12, targets.length, true);
   view.setUint32(16, links[0]?.length ?? 0, true);
   for (const [n, value] of (made.measures ?? []).entries()) view.setFloat32(20 + 4 * n, value, true);
+  view.setUint16(16, links[0]?.length ?? 0, true);
+  view.setUint16(18, made.memory?.length ?? 0, true);
+  (made.measures ?? []).forEach((value, n) => view.setFloat32(20 + 4 * n, value, true));
   let at = 84;
   const floats = (values: number[]): void => {
     for (const value of values) view.setFloat32(at, value, true), (at += 4);
@@ -37,6 +41,7 @@ export function makeFrame(made: Made): ArrayBuffer {
   floats(x);
   floats(made.y ?? x.map(() => 0));
   for (let n = 0; n < (lean ? 0 : 3); n++) floats(x.map((_, agent) => 10 * n + agent));
+  floats((made.memory ?? []).flat());
   floats(targets.map((target) => target[0]));
   floats(targets.map((target) => target[1]));
   for (const degree of lean ? [] : (made.degree ?? x.map(() => 1))) view.setUint16(at, degree, true), (at += 2);

@@ -55,7 +55,7 @@ describe("A history", () => {
     assert.ok(history.step.length <= 4001);
     assert.equal(history.step[0], 0);
     assert.ok(history.step.at(-1)! > 49_900);
-    assert.deepEqual(history.values.engaged, history.step);
+    assert.deepEqual(history.of("engaged_now"), history.step);
   });
 
   it("begins with what went on before the page was opened", () => {
@@ -65,8 +65,8 @@ describe("A history", () => {
     history.fill({ type: "history", run: 0, step: [0, 50], time_on_target: none, recent: none, xi: [null, 0.5], xi_now: none, engaged: [2, 4] });
     for (const step of [49, 50, 51]) history.add(frameAt(step, 5));
     assert.deepEqual(history.step, [0, 50, 51]);
-    assert.deepEqual(history.values.engaged, [2, 4, 5]);
-    assert.deepEqual(history.values.xi, [NaN, 0.5, 0]);
+    assert.deepEqual(history.of("engaged_now"), [2, 4, 5]);
+    assert.deepEqual(history.of("xi"), [NaN, 0.5, 0]);
   });
 
   it("does not change when older frames are shown again", () => {

@@ -45,7 +45,7 @@ def recorded_scene(record: Record, run: int) -> dict[str, Any]:
             }
             for name, value in estimates.items()
         ],
-        "series": [describe_metric(name) for name in charted],
+        "series": [{**describe_metric(name), "mean": record.estimate(name).mean} for name in charted],
         "history": {
             "step": [int(step) for step in starts],
             "values": {name: record.of_batches(name, run).tolist() for name in charted},
