@@ -11,7 +11,7 @@ import { Numbers, type RunNumbers } from "./numbers";
 import { readTheme, type Theme } from "./palette";
 import { showPlace } from "./place";
 import { attachPointer } from "./pointer";
-import type { Failure, Frame, Hello, Past, Request, SavedText, Scene, Status, Told } from "./protocol";
+import type { Failure, Frame, Hello, Measured, Past, Request, SavedText, Scene, Status } from "./protocol";
 import { Roll } from "./roll";
 import { drawForPrint, offerFullScreen, switchFullScreen } from "./screen";
 import type { Listener, Source } from "./source";
@@ -82,7 +82,7 @@ export class App implements Listener {
     document.body.dataset.runs = String(hello.runs);
     const letters = (this.letters = hello.runs > 1 ? ["A", "B"].slice(0, hello.runs) : [""]);
     this.stages = letters.map((letter, run) => new Stage(run, letter, (each) => this.source.tape(each)));
-    this.runs = letters.map(() => ({ history: new History(), scene: null, frame: null, since: 0, marks: [], past: null, told: null }));
+    this.runs = letters.map(() => ({ history: new History(), scene: null, frame: null, since: 0, marks: [], past: null, measured: null }));
     this.numbers = new Numbers(letters);
     document.body.dataset.of = hello.fleet ? "fleet" : "swarm";
     this.roll = hello.fleet ? new Roll() : null;
@@ -101,6 +101,8 @@ export class App implements Listener {
       this.arrangement.tabs,
       this.numbers.root,
       el("div", { class: "controls" }, (this.swarm ?? this.roll)?.root ?? this.numbers.table, this.switches.root, this.conditions.root),
+      el("h2", { class: "unseen" }, "Numbers and controls"), this.arrangement.tabs, this.numbers.root,
+      el("div", { class: "controls" }, (this.swarm ?? this.roll)?.root ?? this.numbers.table, this.switches.root, this.numbers.tools, this.conditions.root),
     );
     this.transport.offer(hello.speeds);
     this.transport.restart.disabled = hello.recording;
@@ -126,9 +128,9 @@ export class App implements Listener {
     if (run) run.past = past; // until the scene says what it is of
   }
 
-  told(told: Told): void {
-    const run = this.runs[told.run];
-    if (run) run.told = told;
+  measured(measured: Measured): void {
+    const run = this.runs[measured.run];
+    if (run) run.measured = measured;
   }
 
   file(file: SavedText): void {
@@ -167,7 +169,7 @@ export class App implements Listener {
     const run = this.runs[frame.run];
     if (!run) return;
     run.frame = frame;
-    run.history.add(frame, run.told?.step === frame.step ? run.told.values : []);
+    run.history.add(frame, run.measured?.step === frame.step ? run.measured.values : []);
     this.stages[frame.run].show(frame, this.status_?.playing ?? false);
     run.since = this.stages[frame.run].scene?.since ?? 0;
     this.uncounted = true;

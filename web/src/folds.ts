@@ -9,7 +9,7 @@ export function makeFoldable(root: HTMLElement): void {
   for (const card of root.querySelectorAll<HTMLElement>(".card")) {
     const heading = card.querySelector("h3");
     const name = heading?.textContent ?? "";
-    if (!heading || heading.querySelector("button")) continue;
+    if (!heading || heading.querySelector("button, select")) continue;
     const button = el("button", { type: "button", class: "fold" }, name);
     const show = (): void => {
       card.classList.toggle("folded", folded.has(name));

@@ -5,7 +5,7 @@ import { count } from "./format";
 import type { History } from "./history";
 import { TARGET_COLOR, type Theme } from "./palette";
 import type { Line } from "./plot";
-import type { Frame, Past, Scene, Series, Told } from "./protocol";
+import type { Frame, Past, Scene, Series, Measured } from "./protocol";
 
 /** What one run has to show. */
 export interface RunNumbers {
@@ -15,12 +15,12 @@ export interface RunNumbers {
   since: number; // step at which the means of the frame began
   marks: number[]; // steps at which the swarm was changed
   past: Past | null; // what went on before the page was opened, until the scene comes
-  told: Told | null; // the metrics of the frame that comes next
+  measured: Measured | null; // the metrics of the frame that comes next
 }
 
 /** What is told of a metric besides its mean. */
 const MOMENTARY: Record<string, { series: string; words: string; whole: boolean }> = {
-  time_on_target: { series: "recent", words: "last 1\u2009000 steps", whole: false },
+  time_on_target: { series: "recent", words: "last 1\u2009000", whole: false },
   xi: { series: "xi_now", words: "this step", whole: false },
   engaged: { series: "engaged_now", words: "now", whole: true },
 };

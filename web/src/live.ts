@@ -73,7 +73,7 @@ export class LiveSource implements Source {
         }
         return this.listener.scene(message.run, message.scene);
       case "numbers":
-        return this.listener.told(message);
+        return this.listener.measured(message);
       case "file":
         return this.listener.file(message);
       case "status":

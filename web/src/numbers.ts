@@ -76,10 +76,11 @@ export class Numbers {
   private readonly phi = el("canvas", { class: "phi", role: "img", "aria-label": "Histogram of the heading-bearing correlation phi" });
   /** The record's own metrics, where there are any. */
   readonly table = el("section", { class: "card record", "aria-label": "Metrics of the record", hidden: true });
+  /** What holds for all charts. */
+  readonly tools = el("section", { class: "card", "aria-label": "Charts" });
   private readonly inTime = el("input", { type: "checkbox", role: "switch", id: "in-time" });
   private readonly difference = el("input", { type: "checkbox", role: "switch", id: "difference" });
-  private readonly whole = el("button", { type: "button", hidden: true, title: "Double click a chart, or Escape on it" }, "Whole run");
-  private readonly where = el("output", {});
+  private readonly whole = el("button", { type: "button", hidden: true, title: "Double click a chart, or Escape on it" }, "Show whole run");
   private series: Series[] = [];
   private zoom: [number, number] | null = null; // as the axis counts
   private cursor: number | null = null;
@@ -96,10 +97,12 @@ export class Numbers {
     this.whole.onclick = () => { this.see(null); };
     this.inTime.onchange = () => { this.zoom = this.cursor = null; redraw(); };
     this.difference.onchange = redraw;
-    const tools = el("div", { class: "chart-tools" }, choice(this.inTime, "in time"));
-    if (letters.length > 1) tools.append(choice(this.difference, "B − A"));
-    tools.append(this.where, this.whole);
-    this.root.append(tools);
+    const switches = el("div", { class: "switches" }, choice(this.inTime, "Over time, not steps"));
+    if (letters.length > 1) switches.append(choice(this.difference, "Difference B − A"));
+    this.tools.append(
+      el("div", { class: "top" }, el("h3", {}, "Charts"), this.whole), switches,
+      el("p", { class: "words" }, "Point at a chart for its values. Drag along it to look closer."),
+    );
     this.cards = Array.from({ length: CHARTS }, (_, n) => this.card(n));
     this.root.append(
       el(
@@ -206,10 +209,10 @@ export class Numbers {
       ),
     );
     const peak = card.plot.axis.peak;
-    this.where.textContent = this.cursor === null ? "" : time ? `at ${readable(at)} ${time}` : `at step ${count(at)}`;
+    const where = this.cursor === null ? "" : time ? `at ${readable(at)} ${time}` : `at step ${count(at)}`;
     card.key.replaceChildren(
       ...card.lines.map((line) => el("span", {}, swatch(line), `${line.words} `, el("b", {}, (line.whole ? readable : steady)(valueAt(line, at))))),
-      peak === null ? "" : `peak: ${readable(peak)}`,
+      where || (peak === null ? "" : `peak: ${readable(peak)}`),
     );
   }
 }

@@ -82,7 +82,6 @@ export interface Scene {
   has_links: boolean;
   memory?: { name: string; unit: string }[]; // what agents remember besides a_R, in the order of frames
   delay?: number; // [steps] of reports
-  ends?: number | null; // step from which no target is there any more
   series?: Series[];
   metrics?: Metric[];
   history?: { step: number[]; values: Record<string, (number | null)[]> };
@@ -145,7 +144,7 @@ export interface Failure {
 }
 
 /** What metrics are at the step of the frame that comes next, in the order of the scene's series. */
-export interface Told {
+export interface Measured {
   type: "numbers";
   run: number;
   step: number;
@@ -160,7 +159,7 @@ export interface SavedText {
   text: string;
 }
 
-export type Message = Hello | Past | Status | Failure | Told | SavedText | { type: "scene"; run: number; scene: Scene };
+export type Message = Hello | Past | Status | Failure | Measured | SavedText | { type: "scene"; run: number; scene: Scene };
 
 export type Change = string | number | boolean;
 

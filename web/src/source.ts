@@ -1,6 +1,6 @@
 // Where scenes and frames come from: a running engine (live.ts) or the page itself (replay.ts).
 
-import type { Failure, Frame, Hello, Past, Request, SavedText, Scene, Status, Told } from "./protocol";
+import type { Failure, Frame, Hello, Past, Request, SavedText, Scene, Status, Measured } from "./protocol";
 import type { Tape } from "./tape";
 
 export interface Listener {
@@ -8,7 +8,7 @@ export interface Listener {
   past(past: Past): void;
   scene(run: number, scene: Scene): void;
   frame(frame: Frame): void;
-  told(told: Told): void;
+  measured(measured: Measured): void;
   file(file: SavedText): void;
   status(status: Status): void;
   failure(failure: Failure): void;
