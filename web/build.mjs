@@ -1,6 +1,7 @@
 // Bundle the page into the Python package, or (--tests) the tests into build/. Same sources, same bytes.
 import { copyFileSync, mkdirSync, readdirSync } from "node:fs";
 import { build } from "esbuild";
+import { trimUplot } from "./trim.mjs";
 
 const STATIC = "../src/shoal/viewer/static";
 const BANNER = "/*! Shoal's viewer. Built from web/src by `npm run build` in web/; edit there, not here. */";
@@ -23,6 +24,7 @@ if (process.argv.includes("--tests")) {
       { in: "src/page.css", out: "app" },
     ],
     bundle: true,
+    plugins: [trimUplot],
     minify: true,
     charset: "utf8",
     format: "iife",

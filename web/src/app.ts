@@ -2,17 +2,21 @@
 
 import { byId, el } from "./dom";
 import { Conditions, phrases, type Told } from "./conditions";
+import { count } from "./format";
 import { forgetFleets, rememberFleets } from "./fleets";
 import { makeFoldable } from "./folds";
 import { History } from "./history";
+import { Inspector } from "./inspector";
 import { listen, type Key } from "./keyboard";
 import { Arrangement } from "./layout";
 import { Numbers, type RunNumbers } from "./numbers";
 import { readTheme, type Theme } from "./palette";
 import { showPlace } from "./place";
 import { attachPointer } from "./pointer";
+import { attachPointer, type PointerTool } from "./pointer";
 import type { Failure, Frame, Hello, Measured, Past, Request, SavedText, Scene, Status } from "./protocol";
 import { Roll } from "./roll";
+import { Save } from "./save";
 import { drawForPrint, offerFullScreen, switchFullScreen } from "./screen";
 import type { Listener, Source } from "./source";
 import { Stage } from "./stage";
@@ -22,8 +26,7 @@ import { Transport } from "./transport";
 
 const NUMBERS_EVERY = 100; // [ms]: faster than this nobody reads
 const PATIENCE = 700; // [ms] without an answer after which the engine is said to be busy
-const RECORDING = "A record is being written, and a record is one scenario: time can be stopped and scrubbed, the swarm cannot be changed.";
-const ENDED = "The recorded track ends here. Play goes on without a target.";
+const COMPLETE = "The record is complete: the swarm cannot be changed any more.";
 const PAST = "This is the past. Go to the newest step (End) to change the swarm.";
 
 export class App implements Listener {
@@ -33,6 +36,8 @@ export class App implements Listener {
   private stages: Stage[] = [];
   private runs: RunNumbers[] = [];
   private numbers!: Numbers;
+  private inspector!: Inspector;
+  private save!: Save;
   private swarm: SwarmControls | null = null;
   private roll: Roll | null = null; // of a fleet
   private readonly switches = new Switches(() => this.refresh());
@@ -84,6 +89,11 @@ export class App implements Listener {
     this.stages = letters.map((letter, run) => new Stage(run, letter, (each) => this.source.tape(each)));
     this.runs = letters.map(() => ({ history: new History(), scene: null, frame: null, since: 0, marks: [], past: null, measured: null }));
     this.numbers = new Numbers(letters);
+    this.inspector = new Inspector(this.stages, letters, (run) => this.source.tape(run), () => this.showTool());
+    this.save = new Save({
+      live: this.source.live && !hello.fleet, stages: this.stages, runs: this.runs, send: (request) => this.send(request),
+      chosen: () => this.swarm?.runs[0] ?? 0, say: (words) => this.toast(words),
+    });
     document.body.dataset.of = hello.fleet ? "fleet" : "swarm";
     this.roll = hello.fleet ? new Roll() : null;
     this.swarm =
@@ -102,7 +112,7 @@ export class App implements Listener {
       this.numbers.root,
       el("div", { class: "controls" }, (this.swarm ?? this.roll)?.root ?? this.numbers.table, this.switches.root, this.conditions.root),
       el("h2", { class: "unseen" }, "Numbers and controls"), this.arrangement.tabs, this.numbers.root,
-      el("div", { class: "controls" }, (this.swarm ?? this.roll)?.root ?? this.numbers.table, this.switches.root, this.numbers.tools, this.conditions.root),
+      el("div", { class: "controls" }, (this.swarm ?? this.roll)?.root ?? this.numbers.table, this.switches.root, this.inspector.root, this.numbers.tools, this.save.root, this.conditions.root),
     );
     this.transport.offer(hello.speeds);
     this.transport.restart.disabled = hello.recording;
@@ -112,7 +122,8 @@ export class App implements Listener {
     for (const stage of this.stages) {
       showPlace(stage);
       attachPointer(stage, {
-        tool: () => this.swarm?.tool ?? "look",
+        tool: () => this.tool,
+        pin: (run, agent) => this.inspector.take({ run, agent }),
         remove: (run, agent) => this.send({ do: "kill", run, agent }),
         add: (run, at) => this.send({ do: "add", run, fleet: this.swarm!.fleet, ...at }),
         drag: (run, target, at) => this.send({ do: "drag", run, target, ...at }),
@@ -134,7 +145,7 @@ export class App implements Listener {
   }
 
   file(file: SavedText): void {
-    console.log(file.text);
+    this.save.receive(file);
   }
 
   scene(run: number, scene: Scene): void {
@@ -143,6 +154,7 @@ export class App implements Listener {
     if (!numbers) return;
     rememberFleets(scene);
     if (!this.stages[run].learn(scene)) return;
+    this.inspector.learn(run, scene);
     numbers.scene = scene;
     numbers.history.learn(scene);
     if (numbers.past) numbers.history.fill(numbers.past);
@@ -178,12 +190,13 @@ export class App implements Listener {
   status(status: Status): void {
     const { last } = this.status_ ?? status;
     if (status.last < last) for (const { history } of this.runs) history.cut(status.last);
-    const locks = this.status_?.at_end !== status.at_end || this.status_?.playing !== status.playing;
+    const before = this.status_;
+    const locks = (["at_end", "playing", "script", "complete"] as const).some((name) => before?.[name] !== status[name]);
     this.status_ = status;
     this.transport.update(status, this.stages[0]?.newest?.time_step ?? 0);
-    this.showBusy(status.busy);
+    this.showBusy(status.busy ?? (status.at_end ? status.ended ?? null : null));
     if (locks) this.lock();
-    if (locks && !status.playing && status.step === this.stages[0]?.newest?.ends) this.toast(ENDED);
+    this.save.count(status.changes ?? 0);
     this.uncounted = true;
   }
 
@@ -230,6 +243,7 @@ export class App implements Listener {
       if (this.runs[0].frame) this.roll?.call(this.runs[0].frame);
       const newest = Math.max(...this.runs.map(({ frame }) => frame?.step ?? 0));
       this.conditions.tell(this.told());
+      this.inspector.tell();
       this.numbers.draw(this.theme, this.runs, this.status_?.last ?? newest);
     }
     requestAnimationFrame(this.tick);
@@ -257,8 +271,9 @@ export class App implements Listener {
   private lock(): void {
     if (!this.hello_ || !this.swarm) return;
     const { at_end, playing } = this.status_ ?? { at_end: true, playing: true };
-    const reason = this.hello_.recording ? RECORDING : at_end || playing ? null : PAST;
-    this.swarm.lock(reason, !this.hello_.recording);
+    const { complete, script } = this.status_ ?? {};
+    const busy = complete ? COMPLETE : script != null ? `Changes come from a log until step ${count(script)}; then the swarm is yours.` : null;
+    this.swarm.lock(busy ?? (at_end || playing ? null : PAST), busy === null);
   }
 
   private told(): Told[] {
@@ -280,8 +295,12 @@ export class App implements Listener {
     }
   }
 
+  private get tool(): PointerTool {
+    return this.inspector.measuring ? "measure" : this.swarm?.tool ?? "look";
+  }
+
   private showTool(): void {
-    document.body.dataset.tool = this.swarm?.tool ?? "look";
+    document.body.dataset.tool = this.tool;
     for (const stage of this.stages) stage.pick(null);
   }
 
@@ -379,6 +398,8 @@ export class App implements Listener {
           key("0", "the whole area", () => this.zoom(0)),
           key("d", "dark, light", () => this.switchTheme()),
           key("b", "panels", () => this.arrangement.toggle()),
+          key("i", "find a buoy", () => this.inspector.find()),
+          key("e", "measure: how far, which way", () => this.inspector.measure(!this.inspector.measuring)),
           key("z", "full screen", () => switchFullScreen()),
           key("?", "this help", () => this.help()),
         ],

@@ -77,6 +77,12 @@ export class Camera {
     this.keepInside();
   }
 
+  /** Put a point [m] in the middle, as far as the area reaches. */
+  lookAt(x: number, y: number): void {
+    [this.x, this.y] = [x, y];
+    this.keepInside();
+  }
+
   reset(): void {
     this.zoomBy(0);
   }

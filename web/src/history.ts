@@ -26,12 +26,12 @@ const GAUGES: Record<string, (frame: Frame) => number> = {
 export class History {
   readonly step: number[] = [];
   private readonly values = new Map<string, number[]>();
-  private names: string[] = []; // of the metrics whose values come with frames
+  private told_: string[] = []; // of the metrics whose values come with frames
   private every = 1; // least steps between two points
 
   /** Learn which metrics there are: a scene may have others than the one before. */
   learn(scene: Scene): void {
-    this.names = (scene.series ?? []).map(({ name }) => name);
+    this.told_ = (scene.series ?? []).map(({ name }) => name);
   }
 
   /** The values of a series, as many as there are steps. */
@@ -40,6 +40,10 @@ export class History {
     if (!known) this.values.set(name, (known = []));
     while (known.length < this.step.length) known.push(NaN);
     return known;
+  }
+
+  names(): string[] {
+    return [...this.values.keys()];
   }
 
   has(name: string): boolean {
@@ -79,7 +83,7 @@ export class History {
 
   /** Values in the order of the scene's series, by name. */
   private told(numbers: (number | null)[]): Map<string, number> {
-    return new Map(numbers.map((value, n) => [this.names[n] ?? "", value ?? NaN]));
+    return new Map(numbers.map((value, n) => [this.told_[n] ?? "", value ?? NaN]));
   }
 
   private thin(): void {

@@ -34,9 +34,9 @@ export function listen(groups: { title: string; keys: Key[] }[]): void {
 
 function isTaken({ key, target }: KeyboardEvent): boolean {
   if (!(target instanceof HTMLElement)) return false;
-  if (key === "Escape" || key === "?") return target.matches("input[type=text]");
+  if (key === "Escape" || key === "?") return target.matches("input[type=text], input[type=search]");
   if (document.querySelector("dialog[open]")) return true;
-  if (target.matches("input[type=number], input[type=text], select, textarea")) return true;
+  if (target.matches("input[type=number], input[type=text], input[type=search], select, textarea")) return true;
   const arrows = key.startsWith("Arrow") || key === "Home" || key === "End" || key.startsWith("Page");
   if (target.matches("input[type=range], input[type=radio]")) return arrows || (key === " " && target.matches("[type=radio]"));
   return key === " " && target.matches("button, input[type=checkbox], summary");

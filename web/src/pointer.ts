@@ -3,10 +3,13 @@
 import type { Point, Stage } from "./stage";
 import type { Tool } from "./swarm";
 
+export type PointerTool = Tool | "measure";
+
 const REACH = { mouse: 16, touch: 28, pen: 20 }; // [px] around a buoy
 
 export interface Actions {
-  tool(): Tool;
+  tool(): PointerTool;
+  pin(run: number, agent: number): void;
   remove(run: number, agent: number): void;
   add(run: number, at: Point): void;
   drag(run: number, target: number, at: Point): void;
@@ -43,7 +46,13 @@ export function attachPointer(stage: Stage, actions: Actions): void {
   const use = (x: number, y: number, within: number): void => {
     const tool = actions.tool();
     const agent = stage.agentAt(x, y, within);
-    if (tool === "look") stage.pick(agent);
+    if (tool === "measure") {
+      stage.ruler.press(water(x, y));
+      stage.refresh();
+    } else if (tool === "look") {
+      stage.pick(agent);
+      if (agent !== null) actions.pin(stage.run, agent);
+    }
     else if (tool === "add") actions.add(stage.run, water(x, y));
     else if (tool === "remove") {
       if (agent === null) actions.say("There is no buoy here: click nearer to one.");
@@ -74,6 +83,11 @@ export function attachPointer(stage: Stage, actions: Actions): void {
   canvas.addEventListener("pointermove", (event) => {
     const at = place(event);
     const before = pointers.get(event.pointerId);
+    if (actions.tool() === "measure") {
+      stage.ruler.move(water(at.x, at.y));
+      stage.refresh();
+      return;
+    }
     if (!before) {
       const tool = actions.tool();
       if (event.pointerType === "mouse") stage.pick(tool === "look" || tool === "remove" ? stage.agentAt(at.x, at.y, REACH.mouse) : null);
@@ -91,6 +105,7 @@ export function attachPointer(stage: Stage, actions: Actions): void {
 
   const release = (event: PointerEvent): void => {
     pointers.delete(event.pointerId);
+    stage.ruler.release();
     if (dragged !== null && wanted) actions.drag(stage.run, dragged, wanted);
     if (dragged !== null) stage.crosshair = null;
     [dragged, wanted] = [null, null];
@@ -124,6 +139,7 @@ export function attachPointer(stage: Stage, actions: Actions): void {
     const [x, y] = [camera.toX(at.x), camera.toY(at.y)];
     if (move) {
       stage.crosshair = stage.crosshair ? water(x + move[0], y + move[1]) : at;
+      stage.ruler.move(stage.crosshair);
       if (actions.tool() === "look") stage.pick(stage.agentAt(camera.toX(stage.crosshair.x), camera.toY(stage.crosshair.y), REACH.touch));
     } else if (event.key === "Enter" && stage.crosshair) use(x, y, REACH.touch);
     else if (event.key === "Escape" && stage.crosshair) {

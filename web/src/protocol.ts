@@ -5,6 +5,7 @@ export interface Fleet {
   count: number;
   max_speed: number; // [m/s]
   sensor_radius: number; // [m]
+  strategy?: string;
 }
 
 export interface Target {
@@ -121,6 +122,7 @@ export interface Status {
   at_end: boolean;
   busy: string | null;
   ended?: string | null; // the total, once all recorded tracks are over
+  complete?: boolean; // the record that is written is as long as it was meant to be
   script?: number | null; // changes come from a log until this step
   changes?: number; // made so far
 }

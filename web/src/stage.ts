@@ -8,7 +8,9 @@ import { drawCurrents, drawGraticule, drawLand, drawScale } from "./geography";
 import * as layers from "./layers";
 import { Legend } from "./legend";
 import { heardBy, linkedPairs, type Pairs } from "./links";
+import { Ruler } from "./measure";
 import type { Theme } from "./palette";
+import { SvgPaper } from "./svgpaper";
 import { isAlive, isOnTarget, isPresent, isSilent, type Frame, type Scene } from "./protocol";
 import { spoken } from "./spoken";
 import type { Tape } from "./tape";
@@ -43,6 +45,7 @@ export class Stage {
   newest: Scene | null = null;
   crosshair: Point | null = null;
   picked: number | null = null;
+  readonly ruler = new Ruler();
   links = 0;
   dotted = false; // there are too many agents in view for markers
   drawn: number[] = []; // [ms], when the last frames were drawn
@@ -56,6 +59,10 @@ export class Stage {
   private readonly water: HTMLElement;
   private readonly scenes = new Map<number, Scene>();
   private readonly reduced = matchMedia("(prefers-reduced-motion: reduce)");
+  private pinned: number | null = null;
+  private following = false;
+  private look: Look | null = null; // as it was drawn last
+  private theme: Theme | null = null;
   private pairs: { frame: Frame; pairs: Pairs } | null = null;
   private stale = true;
   private size = { width: 0, height: 0 };
@@ -138,7 +145,7 @@ export class Stage {
     const gliding = this.from !== null;
     if (!this.stale && !gliding) return;
     this.stale = false;
-    const { context, scene, frame, camera } = this;
+    const { context, scene, frame } = this;
     const ratio = Math.min(devicePixelRatio || 1, 2);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, this.size.width, this.size.height);
@@ -146,6 +153,26 @@ export class Stage {
     const moment = (this.now = this.momentAt(performance.now()));
     this.drawn.push(now);
     if (this.drawn.length > 240) this.drawn.splice(0, 120);
+    [this.look, this.theme] = [look, theme];
+    if (this.following && this.pinned !== null) this.camera.lookAt(moment.x[this.pinned], moment.y[this.pinned]);
+    this.paint(context, moment, look, theme);
+  }
+
+  /** What is on the canvas, as an SVG. */
+  svg(): string {
+    const { now, look, theme, size } = this;
+    const paper = new SvgPaper(size.width, size.height, this.context);
+    if (!now || !look || !theme) return paper.text;
+    paper.fillStyle = theme.outside;
+    paper.fillRect(0, 0, size.width, size.height);
+    this.paint(paper.context, now, look, theme);
+    return paper.text;
+  }
+
+  private paint(context: CanvasRenderingContext2D, moment: layers.Moment, look: Look, theme: Theme): void {
+    const { camera } = this;
+    const { scene, frame } = moment;
+    const ratio = Math.min(devicePixelRatio || 1, 2);
     const brush = { context, camera, theme };
     const { plot } = camera;
     this.dotted = moment.dotted;
@@ -171,9 +198,12 @@ export class Stage {
     if (this.dotted) this.dots.draw(context, camera, ratio, scene, frame, theme);
     else if (look.trails) layers.drawTrails(brush, { ...moment, past: this.trail(moment.past) }, size);
     layers.drawTargets(brush, look.trails ? moment : { ...moment, past: [] });
-    if (this.picked !== null) layers.drawPicked(brush, moment, this.picked, heardBy(frame, this.picked), size);
+    for (const agent of new Set([this.picked, this.pinned])) {
+      if (agent !== null && agent < frame.x.length) layers.drawPicked(brush, moment, agent, heardBy(frame, agent), size);
+    }
     if (look.headings) layers.drawHeadings(brush, moment, size);
     layers.drawAgents(brush, moment, size);
+    this.ruler.draw(brush);
     if (this.crosshair) layers.drawCrosshair(brush, this.crosshair);
     drawScale(brush, scene);
     context.restore();
@@ -207,6 +237,20 @@ export class Stage {
     const far = (target: number): number => Math.hypot(frame.targetX[target] - x, frame.targetY[target] - y);
     const there = [...frame.targetX.keys()].filter((target) => isPresent(frame, target));
     return there.length ? there.reduce((best, each) => (far(each) < far(best) ? each : best)) : null;
+  }
+
+  /** Mark an agent for as long as it is pinned. */
+  pin(agent: number | null): void {
+    this.pinned = agent;
+    this.stale = true;
+  }
+
+  /** Keep the pinned agent in the middle, so many times nearer than the whole area. */
+  follow(on: boolean, nearer: number): void {
+    if (on && !this.following && !this.camera.zoomed) this.camera.zoomBy(nearer);
+    if (!on && this.following) this.camera.reset();
+    this.following = on;
+    this.stale = true;
   }
 
   pick(agent: number | null): void {

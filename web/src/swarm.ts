@@ -153,6 +153,7 @@ export class SwarmControls {
   }
 
   private showFast(scene: Scene, agents: number): void {
+    if (this.hello.recording) return this.fast.refuse("a record keeps its fleets");
     if (countFleets() !== 2) return this.fast.refuse("needs two fleets");
     const { name, max_speed } = fastestFleet();
     const fast = scene.fleets.find((fleet) => fleet.name === name)?.count ?? 0;

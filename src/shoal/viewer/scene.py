@@ -53,6 +53,7 @@ def scene_of(
                 "count": count,
                 "max_speed": fleet.max_speed,
                 "sensor_radius": fleet.sensor_radius,
+                "strategy": (fleet.strategy or strategy).name,
             }
             for fleet, count in zip(scenario.fleets, scenario.counts, strict=True)
         ],

@@ -111,6 +111,7 @@ class Session:
                 "at_end": self.shown is self._ring.newest,
                 "busy": self.busy,
                 "ended": self.ended,
+                "complete": self.done,
                 "script": self.helm.script_end,
                 "changes": self.helm.changes,
             }
