@@ -12,7 +12,6 @@ import { Arrangement } from "./layout";
 import { Numbers, type RunNumbers } from "./numbers";
 import { readTheme, type Theme } from "./palette";
 import { showPlace } from "./place";
-import { attachPointer } from "./pointer";
 import { attachPointer, type PointerTool } from "./pointer";
 import type { Failure, Frame, Hello, Measured, Past, Request, SavedText, Scene, Status } from "./protocol";
 import { Roll } from "./roll";

@@ -75,7 +75,6 @@ def scene_of(
         "events": events,
         "ends": ends,
         "geography": geography,
-        "has_repulsion": REPULSION in memory,
         "has_repulsion": REPULSION in fields,
         "memory": [{"name": name, "unit": units.get(name, "")} for name in remembered(fields, scenario.agents)],
         "delay": scenario.network.delay,
