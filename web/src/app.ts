@@ -312,7 +312,9 @@ export class App implements Listener {
     const common = each[0].filter((phrase) => each.every((phrases) => phrases.includes(phrase)));
     const own = each.map((phrases, run) => `${"AB"[run]}: ${phrases.filter((phrase) => !common.includes(phrase)).join(", ")}`);
     const differ = each.length > 1 && each.some((phrases) => phrases.length > common.length);
-    byId("about").textContent = [...common, ...(differ ? own : [])].join(" · ");
+    const steered = scene.steered?.length ?? 0;
+    const begin = steered ? [`steered ${count(steered)} times; it began with`] : [];
+    byId("about").textContent = [...begin, ...common, ...(differ ? own : [])].join(" · ");
   }
 
   private refresh(): void {

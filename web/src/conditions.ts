@@ -31,7 +31,8 @@ export class Conditions {
 
   describe(runs: Told[]): void {
     const items = runs.flatMap(({ letter, scene }) => {
-      const words = [...phrases(scene), ...scene.conditions];
+      const steered = (scene.steered ?? []).map(({ step, words }) => `step ${count(step)}: ${words}`);
+      const words = [...phrases(scene), ...scene.conditions, ...steered];
       return [letter ? `${letter}: ${words.join(" · ")}` : words].flat();
     });
     this.list.replaceChildren(...items.map((words) => el("li", {}, words)));

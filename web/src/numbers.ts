@@ -93,6 +93,7 @@ export class Numbers {
       this.root.append(el("section", { class: "card" }, el("div", { class: "top" }, el("h3", {}, measure.title), card.value), card.words, canvas));
       return card;
     });
+  constructor(letters: string[]) {
     const redraw = (): void => { this.again(); };
     this.whole.onclick = () => { this.see(null); };
     this.inTime.onchange = () => { this.zoom = this.cursor = null; redraw(); };
@@ -154,6 +155,7 @@ export class Numbers {
       card.plot.draw(theme, {
         lines: card.lines, x: this.zoom ?? all, least: metric.least, most: metric.most, difference: minus,
         marks: marks.map((step) => step * scale), ends: ends.map((step) => step * scale), shown: shown * scale,
+        unit: this.inTime.checked ? unit.name : "",
         label: `${title(metric)} over ${this.inTime.checked ? `time [${unit.name}]` : "steps"}`,
       });
       this.tell(card, metric, runs, shown * scale, this.inTime.checked ? unit.name : "");
@@ -202,16 +204,14 @@ export class Numbers {
     card.select.title = `${metric.sentence}${metric.unit === "1" ? "" : ` [${metric.unit}]`}`;
     const unit = metric.unit === "1" ? null : el("span", { class: "of" }, ` ${metric.unit}`);
     const whole = runs[0].scene?.history && card.lines.length === 1 ? metric.mean ?? NaN : null;
-    const mains = runs.length > 1 && card.lines.length > 1 ? card.lines : card.lines.slice(0, 1);
+    const [main] = card.lines; // of two runs side by side, the key says both
     card.value.replaceChildren(
-      ...mains.map((line, n) =>
-        el("span", {}, mains.length > 1 ? el("b", { class: `letter run-${n}` }, this.letters[n]) : null, steady(whole ?? valueAt(line, shown)), unit?.cloneNode(true) ?? null),
-      ),
+      ...(main && (runs.length === 1 || card.lines.length === 1) ? [el("span", {}, (main.whole ? readable : steady)(whole ?? valueAt(main, shown)), unit)] : []),
     );
     const peak = card.plot.axis.peak;
     const where = this.cursor === null ? "" : time ? `at ${readable(at)} ${time}` : `at step ${count(at)}`;
     card.key.replaceChildren(
-      ...card.lines.map((line) => el("span", {}, swatch(line), `${line.words} `, el("b", {}, (line.whole ? readable : steady)(valueAt(line, at))))),
+      ...card.lines.map((line) => el("span", {}, swatch(line), `${line.words} `, el("b", {}, (line.whole ? readable : steady)(valueAt(line, at)), card.lines.length > 1 && runs.length > 1 ? unit?.cloneNode(true) ?? null : null))),
       where || (peak === null ? "" : `peak: ${readable(peak)}`),
     );
   }

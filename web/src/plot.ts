@@ -26,6 +26,7 @@ export interface Drawing {
   ends: number[]; // where a dashed one is
   shown: number | null; // where a full one is
   label: string;
+  unit: string; // of x, "" of steps
 }
 
 export interface PlotEvents {
@@ -79,7 +80,7 @@ export class Plot {
         width, height, legend: { show: false }, padding: [6, 6, 0, 0],
         scales: { x: { time: false, range: () => this.drawing.x }, y: { range: () => [this.axis.low, this.axis.high] } },
         axes: [
-          { ...axis, size: 17, gap: 2, space: 64, grid: { show: false } },
+          { ...axis, size: 20, gap: 5, space: 64, grid: { show: false }, values: (_, splits) => splits.map((x, n) => this.word(x, n, splits.length)) },
           { ...axis, gap: 3, space: 20, size: (_, values) => 8 + 6.1 * Math.max(1, ...(values ?? []).map((each) => each.length)) },
         ],
         series: [{}, ...this.drawing.lines.map(({ width, dash }, n) => ({
@@ -101,6 +102,13 @@ export class Plot {
       },
       aligned(this.drawing.lines), this.root,
     );
+  }
+
+  /** A label of the x axis: the first one names steps, the last one a unit. */
+  private word(x: number, n: number, labels: number): string {
+    const { unit } = this.drawing;
+    if (unit) return n === labels - 1 ? `${readable(x)} ${unit}` : readable(x);
+    return n === 0 ? `step ${readable(x)}` : readable(x);
   }
 
   private resize(): void {

@@ -40,6 +40,14 @@ export class ReplaySource implements Source {
       return;
     }
     this.show(0);
+    this.follow();
+    addEventListener("hashchange", () => { this.follow(); });
+  }
+
+  /** Show the step that the address names: run.html#step=700. */
+  private follow(): void {
+    const step = /^#step=(\d{1,15})$/.exec(location.hash)?.[1];
+    if (step !== undefined) this.send({ do: "seek", step: Number(step) });
   }
 
   send(request: Request): void {
