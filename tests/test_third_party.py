@@ -10,7 +10,7 @@ from packaging.utils import canonicalize_name
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = (ROOT / "THIRD_PARTY.md").read_text(encoding="utf-8")
 SHIPPED, _, BESIDE = PAGE.partition("## Installed beside Shoal")
-OUTSIDE = re.compile(r"""\b(?:from|import|require\(|import\()\s*["']([^."'][^"']*)["']|url\(["']?([^)"']+)""")
+OUTSIDE = re.compile(r"""\b(?:from|import|require\(|import\()\s*["']([^."'][^"']*)["']|url\(["']?([^#)"'][^)"']*)""")
 OURS = {  # what the package holds that is no Python and no text of ours to read: each made by a script of ours
     "offshore.nc": "examples/sea_file.py",
     "app.js": "web/build.mjs",

@@ -6,6 +6,8 @@ import { trimUplot } from "./trim.mjs";
 const STATIC = "../src/shoal/viewer/static";
 const BANNER = "/*! Shoal's viewer. Built from web/src by `npm run build` in web/; edit there, not here. */";
 
+const WITH = "/*! With uPlot, Copyright (c) 2022 Leon Sorokin, MIT License: see THIRD_PARTY.md. */";
+
 if (process.argv.includes("--tests")) {
   const tests = readdirSync("test").filter((name) => name.endsWith(".test.ts"));
   await build({
@@ -29,7 +31,7 @@ if (process.argv.includes("--tests")) {
     charset: "utf8",
     format: "iife",
     target: ["es2022"],
-    banner: { js: BANNER, css: BANNER },
+    banner: { js: `${BANNER}\n${WITH}`, css: BANNER },
     legalComments: "none",
     outdir: STATIC,
   });

@@ -39,7 +39,7 @@ class TestReplayPage:
         links = re.findall(r"""(?:src|href|action|poster|data-src)\s*=\s*["']?([^"'\s>]+)""", page)
         assert all(link.startswith(("data:", "#")) for link in links)
         assert set(re.findall(r"https?://[^\s\"'`)]+", page)) <= {"http://www.w3.org/2000/svg"}
-        assert not re.search(r"@import|url\((?!['\"]?data:)", page)
+        assert not re.search(r"@import|url\((?!['\"]?(?:data:|#))", page)
 
     def test_it_shows_no_more_frames_than_asked_for(self, small_page, record):
         frames = frames_of(replay_page(record, frames=50))
