@@ -229,6 +229,10 @@ export class App implements Listener {
     },
     /** The first step in the charts. */
     charted: (): number => this.runs[0]?.history.step[0] ?? -1,
+    /** What the ruler on the water says. */
+    measured: (): string => this.stages[0]?.ruler.words ?? "",
+    /** The last step of each line of a chart. */
+    lines: (chart: number): Record<string, number> => this.numbers.lasts(chart),
     playing: (): boolean => this.status_?.playing ?? false,
     fps: (): number => this.stages[0]?.fps(performance.now()) ?? 0,
   };

@@ -41,6 +41,10 @@ export class Ruler {
     this.open = false;
   }
 
+  get words(): string {
+    return this.ends ? measured(...this.ends) : "";
+  }
+
   draw({ context, camera, theme }: Brush): void {
     if (!this.ends) return;
     const [[ax, ay], [bx, by]] = this.ends.map(({ x, y }) => [camera.toX(x), camera.toY(y)]) as [[number, number], [number, number]];
@@ -56,7 +60,7 @@ export class Ruler {
       }
       context.stroke();
     }
-    const words = measured(...this.ends);
+    const { words } = this;
     context.font = "600 12px system-ui, sans-serif";
     context.textAlign = "center";
     context.textBaseline = "middle";

@@ -164,6 +164,11 @@ export class Numbers {
     drawPhi(this.phi, theme, bars);
   }
 
+  /** The last x of each line of a chart. */
+  lasts(chart: number): Record<string, number> {
+    return Object.fromEntries((this.cards[chart]?.lines ?? []).map(({ words, x }) => [words, x[x.length - 1]]));
+  }
+
   private card(n: number): Card {
     const select = el("select", { class: "metric", "aria-label": `Metric of chart ${n + 1}` });
     const plot = new Plot({

@@ -63,6 +63,7 @@ export class Plot {
     const form = JSON.stringify(lines.map(({ width, dash }) => [width, dash]));
     if (form !== this.built) this.build(form);
     this.chart?.setData(aligned(lines));
+    this.chart?.ctx.canvas.setAttribute("aria-label", drawing.label);
   }
 
   private build(form: string): void {
@@ -102,6 +103,7 @@ export class Plot {
       },
       aligned(this.drawing.lines), this.root,
     );
+    this.chart.ctx.canvas.setAttribute("role", "img");
   }
 
   /** A label of the x axis: the first one names steps, the last one a unit. */
