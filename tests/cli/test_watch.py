@@ -16,7 +16,11 @@ import pytest
 from scenarios import scenario
 from shoal.cli.main import BAD_INPUT, run_command
 from shoal.record.files import open_record
+from shoal.run.change_log import ChangeLog, Entry, Logged
+from shoal.run.changes import Change, Drag, Kill
+from shoal.run.replay_changes import replay_changes
 from shoal.run.simulate import simulate
+from shoal.scenario.load import read_table, scenario_from
 
 SOON = 120.0  # [s] a busy machine may take that long, and may compile
 
@@ -116,6 +120,48 @@ class TestRecording:
         (tmp_path / "r" / "mine").touch()
         assert "exists already" in refused(capsys, "watch", "oceans2020", "--no-browser", "--out", tmp_path / "r")
         assert [each.name for each in tmp_path.iterdir()] == ["r"]
+
+
+class TestReplayingChanges:
+    @pytest.fixture
+    def log(self, tmp_path):
+        entries = (
+            Entry(20, Change(do="change", changes={"neighbors": 5})),
+            Entry(50, Kill(do="kill", agent=3)),
+            Entry(50, Drag(do="drag", x=2.0, y=2.0)),
+        )
+        table = read_table("oceans2020")
+        known = ChangeLog((Logged("oceans2020", table, scenario_from(table).hash),), entries, 80)
+        (tmp_path / "log.jsonl").write_text(known.text(), encoding="utf-8")
+        return tmp_path / "log.jsonl"
+
+    def test_the_record_is_the_steered_run(self, log, tmp_path):
+        with watch("--replay-changes", log, "--speed", 1000, "--out", tmp_path / "r") as (process, _):
+            begun = time.monotonic()
+            while not (tmp_path / "r").exists():
+                assert time.monotonic() - begun < SOON
+                time.sleep(0.05)
+            assert interrupt(process)[0] == 0
+        watched, again = open_record(tmp_path / "r"), replay_changes(log)
+        assert watched.steered == again.steered == (
+            (20, "neighbors = 5"), (50, "buoy 3 removed"), (50, "target 0 put at (2, 2) m"),
+        )  # fmt: skip
+        for name, values in watched.trajectories[0].arrays().items():
+            assert np.array_equal(values, again.trajectories[0].arrays()[name])
+
+    def test_nothing_else_may_be_asked_for(self, capsys, log):
+        assert "says what is run" in refused(capsys, "watch", "oceans2020", "--replay-changes", log)
+        assert "says what is run" in refused(capsys, "watch", "--replay-changes", log, "-k", 4)
+
+    def test_what_one_record_cannot_hold_is_refused_at_once(self, capsys, log, tmp_path):
+        text = log.read_text() + '{"step": 60, "do": "add", "x": 0.0, "y": 0.0}\n'
+        log.write_text(text)
+        assert "changes fleets" in refused(capsys, "watch", "--replay-changes", log, "--out", tmp_path / "r")
+        assert [each.name for each in tmp_path.iterdir()] == ["log.jsonl"]
+
+    def test_a_file_that_is_no_log(self, capsys, tmp_path):
+        (tmp_path / "mine.toml").write_text("name = 1")
+        assert "not a line of a log" in refused(capsys, "watch", "--replay-changes", tmp_path / "mine.toml")
 
 
 class TestBadInput:
