@@ -30,10 +30,15 @@ function hearing(scene: Scene, frame: Frame, agent: number): [string, string][] 
   const heard = heardBy(frame, agent).filter((_, n) => n % 2 === 1);
   const far = (other: number): number => between(at(frame, agent), at(frame, other)).distance;
   const near = [...heard].sort((a, b) => far(a) - far(b));
-  const words = near.slice(0, NAMED).map((other) => `no. ${other} (${readable(Number(far(other).toPrecision(3)))} m${!scene.delay && isOnTarget(frame, other) ? ", a target" : ""})`);
+  const words = near
+    .slice(0, NAMED)
+    .map((other) => `no. ${other} (${readable(Number(far(other).toPrecision(3)))} m${!scene.delay && isOnTarget(frame, other) ? ", a target" : ""})`);
   const more = near.length > NAMED ? ` and ${near.length - NAMED} more` : "";
   const late = scene.delay ? `; their reports are ${scene.delay} steps old` : "";
-  return [["Hears", `${near.length} of k = ${frame.degree[agent]}`], ["Heard, nearest first", near.length ? `${words.join(", ")}${more}${late}` : "nobody"]];
+  return [
+    ["Hears", `${near.length} of k = ${frame.degree[agent]}`],
+    ["Heard, nearest first", near.length ? `${words.join(", ")}${more}${late}` : "nobody"],
+  ];
 }
 
 const at = ({ x, y }: Frame, agent: number): { x: number; y: number } => ({ x: x[agent], y: y[agent] });

@@ -88,10 +88,19 @@ export class App implements Listener {
     this.stages = letters.map((letter, run) => new Stage(run, letter, (each) => this.source.tape(each)));
     this.runs = letters.map(() => ({ history: new History(), scene: null, frame: null, since: 0, marks: [], past: null, measured: null }));
     this.numbers = new Numbers(letters);
-    this.inspector = new Inspector(this.stages, letters, (run) => this.source.tape(run), () => this.showTool());
+    this.inspector = new Inspector(
+      this.stages,
+      letters,
+      (run) => this.source.tape(run),
+      () => this.showTool(),
+    );
     this.save = new Save({
-      live: this.source.live && !hello.fleet, stages: this.stages, runs: this.runs, send: (request) => this.send(request),
-      chosen: () => this.swarm?.runs[0] ?? 0, say: (words) => this.toast(words),
+      live: this.source.live && !hello.fleet,
+      stages: this.stages,
+      runs: this.runs,
+      send: (request) => this.send(request),
+      chosen: () => this.swarm?.runs[0] ?? 0,
+      say: (words) => this.toast(words),
     });
     document.body.dataset.of = hello.fleet ? "fleet" : "swarm";
     this.roll = hello.fleet ? new Roll() : null;
@@ -112,6 +121,16 @@ export class App implements Listener {
       el("div", { class: "controls" }, (this.swarm ?? this.roll)?.root ?? this.numbers.table, this.switches.root, this.conditions.root),
       el("h2", { class: "unseen" }, "Numbers and controls"), this.arrangement.tabs, this.numbers.root,
       el("div", { class: "controls" }, (this.swarm ?? this.roll)?.root ?? this.numbers.table, this.switches.root, this.inspector.root, this.numbers.tools, this.save.root, this.conditions.root),
+      el(
+        "div",
+        { class: "controls" },
+        (this.swarm ?? this.roll)?.root ?? this.numbers.table,
+        this.switches.root,
+        this.inspector.root,
+        this.numbers.tools,
+        this.save.root,
+        this.conditions.root,
+      ),
     );
     this.transport.offer(hello.speeds);
     this.transport.restart.disabled = hello.recording;
@@ -193,7 +212,7 @@ export class App implements Listener {
     const locks = (["at_end", "playing", "script", "complete"] as const).some((name) => before?.[name] !== status[name]);
     this.status_ = status;
     this.transport.update(status, this.stages[0]?.newest?.time_step ?? 0);
-    this.showBusy(status.busy ?? (status.at_end ? status.ended ?? null : null));
+    this.showBusy(status.busy ?? (status.at_end ? (status.ended ?? null) : null));
     if (locks) this.lock();
     this.save.count(status.changes ?? 0);
     this.uncounted = true;
@@ -229,6 +248,8 @@ export class App implements Listener {
     },
     /** The first step in the charts. */
     charted: (): number => this.runs[0]?.history.step[0] ?? -1,
+    /** How many files were saved. */
+    saved: (): number => this.save.files,
     /** What the ruler on the water says. */
     measured: (): string => this.stages[0]?.ruler.words ?? "",
     /** The last step of each line of a chart. */
@@ -299,7 +320,7 @@ export class App implements Listener {
   }
 
   private get tool(): PointerTool {
-    return this.inspector.measuring ? "measure" : this.swarm?.tool ?? "look";
+    return this.inspector.measuring ? "measure" : (this.swarm?.tool ?? "look");
   }
 
   private showTool(): void {

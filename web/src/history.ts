@@ -63,7 +63,11 @@ export class History {
   fill(past: Past): void {
     this.cut(-1);
     const old: Record<string, (number | null)[]> = {
-      time_on_target: past.time_on_target, recent: past.recent, xi: past.xi, xi_now: past.xi_now, engaged_now: past.engaged,
+      time_on_target: past.time_on_target,
+      recent: past.recent,
+      xi: past.xi,
+      xi_now: past.xi_now,
+      engaged_now: past.engaged,
     };
     past.numbers?.forEach((numbers, at) => {
       for (const [name, value] of this.told(numbers)) (old[name] ??= past.step.map(() => null))[at] = value;

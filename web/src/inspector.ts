@@ -21,7 +21,13 @@ interface Pin {
 
 export class Inspector {
   readonly root = el("section", { class: "card inspect", "aria-label": "Buoys" });
-  private readonly search = el("input", { type: "search", id: "find", placeholder: "number or fleet", "aria-label": "Find a buoy by number or fleet", autocomplete: "off" });
+  private readonly search = el("input", {
+    type: "search",
+    id: "find",
+    placeholder: "number or fleet",
+    "aria-label": "Find a buoy by number or fleet",
+    autocomplete: "off",
+  });
   private readonly found = el("ul", { class: "found", "aria-label": "Buoys found" });
   private readonly name = el("h4");
   private readonly facts = el("dl", { class: "facts-of" });
@@ -29,7 +35,12 @@ export class Inspector {
   private readonly drop = button("Let go");
   private readonly ruler = button("Measure");
   private readonly hint = el("p", { class: "words" });
-  private readonly pinned = el("div", { class: "pinned", hidden: true }, el("div", { class: "top" }, this.name, el("span", { class: "buttons" }, this.follow, this.drop)), this.facts);
+  private readonly pinned = el(
+    "div",
+    { class: "pinned", hidden: true },
+    el("div", { class: "top" }, this.name, el("span", { class: "buttons" }, this.follow, this.drop)),
+    this.facts,
+  );
   private pin: Pin | null = null;
   private told = "";
 
@@ -41,17 +52,29 @@ export class Inspector {
   ) {
     for (const each of [this.follow, this.ruler]) each.setAttribute("aria-pressed", "false");
     this.root.append(
-      el("div", { class: "top" }, el("h3", {}, "Buoys"), this.ruler), el("div", { class: "row" }, this.search), this.found, this.hint, this.pinned,
+      el("div", { class: "top" }, el("h3", {}, "Buoys"), this.ruler),
+      el("div", { class: "row" }, this.search),
+      this.found,
+      this.hint,
+      this.pinned,
     );
-    this.search.oninput = () => { this.list(); };
+    this.search.oninput = () => {
+      this.list();
+    };
     this.search.onkeydown = (event) => {
       if (event.key !== "Enter") return;
       event.preventDefault(); // it would press the button that gets the focus
       this.found.querySelector("button")?.click();
     };
-    this.follow.onclick = () => { this.press(this.follow, this.follow.getAttribute("aria-pressed") !== "true"); };
-    this.drop.onclick = () => { this.take(null); };
-    this.ruler.onclick = () => { this.measure(!this.measuring); };
+    this.follow.onclick = () => {
+      this.press(this.follow, this.follow.getAttribute("aria-pressed") !== "true");
+    };
+    this.drop.onclick = () => {
+      this.take(null);
+    };
+    this.ruler.onclick = () => {
+      this.measure(!this.measuring);
+    };
     this.say();
   }
 
@@ -77,7 +100,9 @@ export class Inspector {
     const scene = at && this.stages[at.run]?.scene;
     this.pin = at && scene ? pinOf(scene, at.run, at.agent) : null;
     if (!this.pin) this.press(this.follow, false);
-    this.stages.forEach((stage, run) => { stage.pin(this.pin?.run === run ? this.pin.agent : null); });
+    this.stages.forEach((stage, run) => {
+      stage.pin(this.pin?.run === run ? this.pin.agent : null);
+    });
     this.press(this.follow, this.pin !== null && this.follow.getAttribute("aria-pressed") === "true");
     this.pinned.hidden = this.pin === null;
     this.say();
@@ -110,12 +135,16 @@ export class Inspector {
 
   private press(follow: HTMLElement, on: boolean): void {
     follow.setAttribute("aria-pressed", String(on));
-    this.stages.forEach((stage, run) => { stage.follow(on && this.pin?.run === run, NEAR); });
+    this.stages.forEach((stage, run) => {
+      stage.follow(on && this.pin?.run === run, NEAR);
+    });
   }
 
   private say(): void {
     this.hint.hidden = this.pin !== null && !this.measuring;
-    this.hint.textContent = this.measuring ? "Click two points on the water, or drag from one to the other." : "Click a buoy, or find it here: it stays in this panel.";
+    this.hint.textContent = this.measuring
+      ? "Click two points on the water, or drag from one to the other."
+      : "Click a buoy, or find it here: it stays in this panel.";
   }
 
   private list(): void {

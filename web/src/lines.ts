@@ -28,10 +28,17 @@ const MOMENTARY: Record<string, { series: string; words: string; whole: boolean 
 /** The lines of a metric; the first of each run is the one to read. */
 export function linesOf(metric: Series, runs: RunNumbers[], theme: Theme): Line[] {
   const two = runs.length > 1;
-  const mains = runs.filter((run) => two || run.history.has(metric.name)).map((run, n): Line => ({
-    words: two ? "AB"[n] : since(run), ...upToShown(run, metric.name), width: 2, dash: n === 1 ? [5, 3] : [],
-    color: runColor(n, runs.length, theme, metric.name === "time_on_target" ? TARGET_COLOR : theme.ink),
-  }));
+  const mains = runs
+    .filter((run) => two || run.history.has(metric.name))
+    .map(
+      (run, n): Line => ({
+        words: two ? "AB"[n] : since(run),
+        ...upToShown(run, metric.name),
+        width: 2,
+        dash: n === 1 ? [5, 3] : [],
+        color: runColor(n, runs.length, theme, metric.name === "time_on_target" ? TARGET_COLOR : theme.ink),
+      }),
+    );
   if (two) return mains;
   const [run] = runs;
   const lines = [...mains];

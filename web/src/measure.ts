@@ -48,13 +48,19 @@ export class Ruler {
   draw({ context, camera, theme }: Brush): void {
     if (!this.ends) return;
     const [[ax, ay], [bx, by]] = this.ends.map(({ x, y }) => [camera.toX(x), camera.toY(y)]) as [[number, number], [number, number]];
-    for (const [color, width] of [[theme.water, 5], [theme.ink, 1.6]] as const) {
+    for (const [color, width] of [
+      [theme.water, 5],
+      [theme.ink, 1.6],
+    ] as const) {
       context.strokeStyle = color;
       context.lineWidth = width;
       context.beginPath();
       context.moveTo(ax, ay);
       context.lineTo(bx, by);
-      for (const [x, y] of [[ax, ay], [bx, by]]) {
+      for (const [x, y] of [
+        [ax, ay],
+        [bx, by],
+      ]) {
         context.moveTo(x + 4, y);
         context.arc(x, y, 4, 0, 2 * Math.PI);
       }

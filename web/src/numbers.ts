@@ -3,13 +3,9 @@
 import { drawPhi } from "./chart";
 import { timeUnit } from "./axis";
 import { el } from "./dom";
-import { count, estimate, fixed } from "./format";
-import { type History, recorded, type Series } from "./history";
-import { TARGET_COLOR, type Theme } from "./palette";
-import type { Frame, Metric, Scene } from "./protocol";
 import { count, estimate, readable, steady } from "./format";
 import { linesOf, runColor, type RunNumbers } from "./lines";
-import { type Theme } from "./palette";
+import type { Theme } from "./palette";
 import { Plot, valueAt, type Line } from "./plot";
 import type { Metric, Scene, Series } from "./protocol";
 
@@ -94,14 +90,22 @@ export class Numbers {
       return card;
     });
   constructor(letters: string[]) {
-    const redraw = (): void => { this.again(); };
-    this.whole.onclick = () => { this.see(null); };
-    this.inTime.onchange = () => { this.zoom = this.cursor = null; redraw(); };
+    const redraw = (): void => {
+      this.again();
+    };
+    this.whole.onclick = () => {
+      this.see(null);
+    };
+    this.inTime.onchange = () => {
+      this.zoom = this.cursor = null;
+      redraw();
+    };
     this.difference.onchange = redraw;
     const switches = el("div", { class: "switches" }, choice(this.inTime, "Over time, not steps"));
     if (letters.length > 1) switches.append(choice(this.difference, "Difference B − A"));
     this.tools.append(
-      el("div", { class: "top" }, el("h3", {}, "Charts"), this.whole), switches,
+      el("div", { class: "top" }, el("h3", {}, "Charts"), this.whole),
+      switches,
       el("p", { class: "words" }, "Point at a chart for its values. Drag along it to look closer."),
     );
     this.cards = Array.from({ length: CHARTS }, (_, n) => this.card(n));
@@ -133,7 +137,9 @@ export class Numbers {
   }
 
   draw(theme: Theme, runs: RunNumbers[], last: number): void {
-    this.again = () => { this.draw(theme, runs, last); };
+    this.again = () => {
+      this.draw(theme, runs, last);
+    };
     const frames = runs.map((run) => run.frame);
     const first = Math.min(...runs.map((run) => run.history.step[0] ?? run.frame?.step ?? 0));
     const shown = Math.max(0, ...frames.map((frame) => frame?.step ?? 0));
@@ -153,8 +159,14 @@ export class Numbers {
       const lines = minus ? linesOf(metric, runs, theme).filter((_, n) => n < 2) : linesOf(metric, runs, theme);
       card.lines = (minus ? [differenceOf(lines, theme)] : lines).map((line) => ({ ...line, x: toAxis(line.x) }));
       card.plot.draw(theme, {
-        lines: card.lines, x: this.zoom ?? all, least: metric.least, most: metric.most, difference: minus,
-        marks: marks.map((step) => step * scale), ends: ends.map((step) => step * scale), shown: shown * scale,
+        lines: card.lines,
+        x: this.zoom ?? all,
+        least: metric.least,
+        most: metric.most,
+        difference: minus,
+        marks: marks.map((step) => step * scale),
+        ends: ends.map((step) => step * scale),
+        shown: shown * scale,
         unit: this.inTime.checked ? unit.name : "",
         label: `${title(metric)} over ${this.inTime.checked ? `time [${unit.name}]` : "steps"}`,
       });
@@ -172,11 +184,15 @@ export class Numbers {
   private card(n: number): Card {
     const select = el("select", { class: "metric", "aria-label": `Metric of chart ${n + 1}` });
     const plot = new Plot({
-      zoom: (range) => { this.see(range); },
+      zoom: (range) => {
+        this.see(range);
+      },
       point: (x) => {
         if (x === this.cursor) return;
         this.cursor = x;
-        requestAnimationFrame(() => { this.again(); });
+        requestAnimationFrame(() => {
+          this.again();
+        });
       },
     });
     const card: Card = { name: "", select, plot, lines: [], value: el("div", { class: "value" }), key: el("p", { class: "words key" }) };
@@ -208,15 +224,25 @@ export class Numbers {
     const at = this.cursor ?? shown;
     card.select.title = `${metric.sentence}${metric.unit === "1" ? "" : ` [${metric.unit}]`}`;
     const unit = metric.unit === "1" ? null : el("span", { class: "of" }, ` ${metric.unit}`);
-    const whole = runs[0].scene?.history && card.lines.length === 1 ? metric.mean ?? NaN : null;
+    const whole = runs[0].scene?.history && card.lines.length === 1 ? (metric.mean ?? NaN) : null;
     const [main] = card.lines; // of two runs side by side, the key says both
     card.value.replaceChildren(
-      ...(main && (runs.length === 1 || card.lines.length === 1) ? [el("span", {}, (main.whole ? readable : steady)(whole ?? valueAt(main, shown)), unit)] : []),
+      ...(main && (runs.length === 1 || card.lines.length === 1)
+        ? [el("span", {}, (main.whole ? readable : steady)(whole ?? valueAt(main, shown)), unit)]
+        : []),
     );
     const peak = card.plot.axis.peak;
     const where = this.cursor === null ? "" : time ? `at ${readable(at)} ${time}` : `at step ${count(at)}`;
     card.key.replaceChildren(
-      ...card.lines.map((line) => el("span", {}, swatch(line), `${line.words} `, el("b", {}, (line.whole ? readable : steady)(valueAt(line, at)), card.lines.length > 1 && runs.length > 1 ? unit?.cloneNode(true) ?? null : null))),
+      ...card.lines.map((line) =>
+        el(
+          "span",
+          {},
+          swatch(line),
+          `${line.words} `,
+          el("b", {}, (line.whole ? readable : steady)(valueAt(line, at)), card.lines.length > 1 && runs.length > 1 ? (unit?.cloneNode(true) ?? null) : null),
+        ),
+      ),
       where || (peak === null ? "" : `peak: ${readable(peak)}`),
     );
   }
@@ -258,6 +284,7 @@ function metricRow({ name, label, unit, sentence, mean, low, high }: Metric): HT
     "tr",
     { "data-metric": name },
     "tr", { "data-metric": name, title: sentence },
+    { "data-metric": name, title: sentence },
     el("th", { scope: "row" }, label, unit === "1" ? null : el("span", { class: "of" }, ` [${unit}]`)),
     el("td", { class: "mean" }, text.mean),
     el("td", { class: "interval" }, text.interval),

@@ -48,16 +48,27 @@ export class Plot {
   private drawing!: Drawing;
 
   constructor(private readonly events: PlotEvents) {
-    this.root.addEventListener("keydown", (event) => { this.press(event); });
-    this.root.addEventListener("blur", () => { this.point(null); });
-    new ResizeObserver(() => { this.resize(); }).observe(this.root);
+    this.root.addEventListener("keydown", (event) => {
+      this.press(event);
+    });
+    this.root.addEventListener("blur", () => {
+      this.point(null);
+    });
+    new ResizeObserver(() => {
+      this.resize();
+    }).observe(this.root);
   }
 
   draw(theme: Theme, drawing: Drawing): void {
     this.theme = theme;
     this.drawing = drawing;
     this.root.setAttribute("aria-label", `${drawing.label}. Left and right: values; + and -: zoom; Escape: all`);
-    const { lines, x: [from, to], least, most } = drawing;
+    const {
+      lines,
+      x: [from, to],
+      least,
+      most,
+    } = drawing;
     const seen = lines.map(({ x, y }) => y.slice(Math.max(lastAt(x, from), 0), lastAt(x, to) + 1));
     this.axis = axisRange(seen, least, most, drawing.difference);
     const form = JSON.stringify(lines.map(({ width, dash }) => [width, dash]));
@@ -73,35 +84,66 @@ export class Plot {
     if (width < 40 || height < 30) return; // not laid out yet
     this.built = form;
     const axis = {
-      font: FONT, stroke: () => this.theme.muted, ticks: { show: false }, grid: { stroke: () => this.theme.line, width: 1 },
+      font: FONT,
+      stroke: () => this.theme.muted,
+      ticks: { show: false },
+      grid: { stroke: () => this.theme.line, width: 1 },
       values: (_: uPlot, splits: number[]) => splits.map(readable),
     };
     this.chart = new uPlot(
       {
-        width, height, legend: { show: false }, padding: [6, 6, 0, 0],
+        width,
+        height,
+        legend: { show: false },
+        padding: [6, 6, 0, 0],
         scales: { x: { time: false, range: () => this.drawing.x }, y: { range: () => [this.axis.low, this.axis.high] } },
         axes: [
           { ...axis, size: 20, gap: 5, space: 64, grid: { show: false }, values: (_, splits) => splits.map((x, n) => this.word(x, n, splits.length)) },
           { ...axis, gap: 3, space: 20, size: (_, values) => 8 + 6.1 * Math.max(1, ...(values ?? []).map((each) => each.length)) },
         ],
-        series: [{}, ...this.drawing.lines.map(({ width, dash }, n) => ({
-          stroke: () => this.drawing.lines[n]?.color ?? "", width, dash, points: { show: false },
-        }))],
+        series: [
+          {},
+          ...this.drawing.lines.map(({ width, dash }, n) => ({
+            stroke: () => this.drawing.lines[n]?.color ?? "",
+            width,
+            dash,
+            points: { show: false },
+          })),
+        ],
         cursor: {
-          sync: { key: "shoal", scales: ["x", null] }, drag: { x: true, y: false, setScale: false }, y: false,
-          points: { size: 6 }, bind: { dblclick: () => () => { this.events.zoom(null); return null; } },
+          sync: { key: "shoal", scales: ["x", null] },
+          drag: { x: true, y: false, setScale: false },
+          y: false,
+          points: { size: 6 },
+          bind: {
+            dblclick: () => () => {
+              this.events.zoom(null);
+              return null;
+            },
+          },
         },
         hooks: {
-          setSelect: [(chart) => {
-            const { left, width } = chart.select;
-            chart.setSelect(HIDDEN, false);
-            if (width > 3) this.events.zoom([chart.posToVal(left, "x"), chart.posToVal(left + width, "x")]);
-          }],
-          setCursor: [(chart) => { this.events.point(chart.cursor.idx == null ? null : chart.data[0][chart.cursor.idx]); }],
-          drawClear: [(chart) => { this.mark(chart); }],
+          setSelect: [
+            (chart) => {
+              const { left, width } = chart.select;
+              chart.setSelect(HIDDEN, false);
+              if (width > 3) this.events.zoom([chart.posToVal(left, "x"), chart.posToVal(left + width, "x")]);
+            },
+          ],
+          setCursor: [
+            (chart) => {
+              this.events.point(chart.cursor.idx == null ? null : chart.data[0][chart.cursor.idx]);
+            },
+          ],
+          drawClear: [
+            (chart) => {
+              this.mark(chart);
+            },
+          ],
         },
       },
-      aligned(this.drawing.lines), this.root,
+      aligned(this.drawing.lines),
+      this.root,
     );
     this.chart.ctx.canvas.setAttribute("role", "img");
   }
@@ -121,8 +163,16 @@ export class Plot {
   }
 
   private mark(chart: uPlot): void {
-    const { marks, ends, shown, x: [from, to] } = this.drawing;
-    const { ctx, bbox: { top, height } } = chart;
+    const {
+      marks,
+      ends,
+      shown,
+      x: [from, to],
+    } = this.drawing;
+    const {
+      ctx,
+      bbox: { top, height },
+    } = chart;
     const line = (at: number, dash: number[], color: string): void => {
       if (at < from || at > to) return;
       const x = Math.round(chart.valToPos(at, "x", true)) + 0.5;
@@ -149,7 +199,9 @@ export class Plot {
     const at = chart.cursor.idx ?? lastAt(steps, to);
     const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     const center = steps[at] ?? to;
-    const zoom = (factor: number): void => { this.events.zoom([center - (center - from) * factor, center + (to - center) * factor]); };
+    const zoom = (factor: number): void => {
+      this.events.zoom([center - (center - from) * factor, center + (to - center) * factor]);
+    };
     if (by) this.point(Math.min(Math.max(at + by * (event.shiftKey ? 10 : 1), 0), steps.length - 1));
     else if (event.key === "+" || event.key === "=") zoom(0.5);
     else if (event.key === "-") zoom(2);

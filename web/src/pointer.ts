@@ -52,8 +52,7 @@ export function attachPointer(stage: Stage, actions: Actions): void {
     } else if (tool === "look") {
       stage.pick(agent);
       if (agent !== null) actions.pin(stage.run, agent);
-    }
-    else if (tool === "add") actions.add(stage.run, water(x, y));
+    } else if (tool === "add") actions.add(stage.run, water(x, y));
     else if (tool === "remove") {
       if (agent === null) actions.say("There is no buoy here: click nearer to one.");
       else actions.remove(stage.run, agent);

@@ -41,7 +41,9 @@ export class ReplaySource implements Source {
     }
     this.show(0);
     this.follow();
-    addEventListener("hashchange", () => { this.follow(); });
+    addEventListener("hashchange", () => {
+      this.follow();
+    });
   }
 
   /** Show the step that the address names: run.html#step=700. */

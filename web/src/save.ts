@@ -20,27 +20,84 @@ type Choice = [words: string, title: string, act: () => void];
 
 export class Save {
   readonly root = el("section", { class: "card save", "aria-label": "Save" });
+  files = 0; // saved so far
   private readonly changes = el("p", { class: "words" });
 
   constructor(private readonly source: Source) {
     const run: Choice[] = source.live
       ? [
-        ["Scenario", "The settings as they are now: a file for shoal run", () => { source.send({ do: "export", what: "scenario", run: source.chosen() }); }],
-        ["Changes", "The log of changes: shoal watch --replay-changes makes the run again", () => { source.send({ do: "export", what: "changes", run: 0 }); }],
-      ]
-      : [["Link to this step", "Its address, to be sent to others", () => { void this.link(); }]];
+          [
+            "Scenario",
+            "The settings as they are now: a file for shoal run",
+            () => {
+              source.send({ do: "export", what: "scenario", run: source.chosen() });
+            },
+          ],
+          [
+            "Changes",
+            "The log of changes: shoal watch --replay-changes makes the run again",
+            () => {
+              source.send({ do: "export", what: "changes", run: 0 });
+            },
+          ],
+        ]
+      : [
+          [
+            "Link to this step",
+            "Its address, to be sent to others",
+            () => {
+              void this.link();
+            },
+          ],
+        ];
     const rows: [string, Choice[]][] = [
-      ["Picture", [["PNG", "The water as a picture", () => { this.png(); }], ["SVG", "The water as a drawing", () => { this.svg(); }]]],
-      ["Numbers", [["CSV", "Every metric over the steps", () => { this.csv(); }]]],
+      [
+        "Picture",
+        [
+          [
+            "PNG",
+            "The water as a picture",
+            () => {
+              this.png();
+            },
+          ],
+          [
+            "SVG",
+            "The water as a drawing",
+            () => {
+              this.svg();
+            },
+          ],
+        ],
+      ],
+      [
+        "Numbers",
+        [
+          [
+            "CSV",
+            "Every metric over the steps",
+            () => {
+              this.csv();
+            },
+          ],
+        ],
+      ],
       ["Run", run],
     ];
     this.root.append(
       el("div", { class: "top" }, el("h3", {}, "Save")),
-      ...rows.map(([name, choices]) => el("div", { class: "row", role: "group", "aria-label": `Save: ${name}` }, el("span", {}, name), ...choices.map(([words, title, act]) => {
-        const made = el("button", { type: "button", title }, words);
-        made.onclick = act;
-        return made;
-      }))),
+      ...rows.map(([name, choices]) =>
+        el(
+          "div",
+          { class: "row", role: "group", "aria-label": `Save: ${name}` },
+          el("span", {}, name),
+          ...choices.map(([words, title, act]) => {
+            const made = el("button", { type: "button", title }, words);
+            made.onclick = act;
+            return made;
+          }),
+        ),
+      ),
       this.changes,
     );
   }
@@ -54,8 +111,13 @@ export class Save {
   receive({ what, run, text }: SavedText): void {
     const step = this.source.stages[run]?.frame?.step ?? 0;
     const name = this.name(run);
-    if (what === "scenario") offer(`${name}-step-${step}.toml`, new Blob([text], { type: "application/toml" }));
-    else offer(`${name}-changes.jsonl`, new Blob([text], { type: "application/jsonl" }));
+    if (what === "scenario") this.offer(`${name}-step-${step}.toml`, new Blob([text], { type: "application/toml" }));
+    else this.offer(`${name}-changes.jsonl`, new Blob([text], { type: "application/jsonl" }));
+  }
+
+  private offer(name: string, blob: Blob): void {
+    download(name, blob);
+    this.files++;
   }
 
   private get title(): string {
@@ -81,7 +143,9 @@ export class Save {
       context.drawImage(sheet, left, 0);
       left += sheet.width + BETWEEN;
     }
-    all.toBlob((blob) => { if (blob) offer(`${this.title}.png`, blob); });
+    all.toBlob((blob) => {
+      if (blob) this.offer(`${this.title}.png`, blob);
+    });
   }
 
   private svg(): void {
@@ -89,12 +153,12 @@ export class Save {
     stages.forEach((stage, run) => {
       const text = stage.svg();
       const letter = stages.length > 1 ? `-${"AB"[run]}` : "";
-      offer(`${this.title}${letter}.svg`, new Blob([text], { type: "image/svg+xml" }));
+      this.offer(`${this.title}${letter}.svg`, new Blob([text], { type: "image/svg+xml" }));
     });
   }
 
   private csv(): void {
-    offer(`${this.title}.csv`, new Blob([table(this.source.runs)], { type: "text/csv" }));
+    this.offer(`${this.title}.csv`, new Blob([table(this.source.runs)], { type: "text/csv" }));
   }
 
   private async link(): Promise<void> {
@@ -120,14 +184,21 @@ export function table(runs: RunNumbers[]): string {
   const rows = runs.flatMap(({ history, scene }, run) =>
     history.step.map((step, at) => {
       const values = names.map((name) => history.of(name)[at]);
-      return [run, step, Number((step * (scene?.time_step ?? 1)).toPrecision(12)), ...values.map((value) => (Number.isFinite(value) ? String(value) : ""))].join(",");
+      return [
+        run,
+        step,
+        Number((step * (scene?.time_step ?? 1)).toPrecision(12)),
+        ...values.map((value) => (Number.isFinite(value) ? String(value) : "")),
+      ].join(",");
     }),
   );
   return `${["run", "step", "time [s]", ...head].join(",")}\r\n${rows.join("\r\n")}\r\n`;
 }
 
-function offer(name: string, blob: Blob): void {
+function download(name: string, blob: Blob): void {
   const address = URL.createObjectURL(blob);
   el("a", { href: address, download: name }).click();
-  setTimeout(() => { URL.revokeObjectURL(address); }, 10_000);
+  setTimeout(() => {
+    URL.revokeObjectURL(address);
+  }, 10_000);
 }

@@ -1,6 +1,16 @@
 // A sheet that is drawn on like a canvas and is an SVG: the same layers make both.
 
-const EMPTY = { fillStyle: "#000", strokeStyle: "#000", lineWidth: 1, globalAlpha: 1, lineCap: "butt", lineJoin: "miter", font: "10px sans-serif", textAlign: "start", textBaseline: "alphabetic" };
+const EMPTY = {
+  fillStyle: "#000",
+  strokeStyle: "#000",
+  lineWidth: 1,
+  globalAlpha: 1,
+  lineCap: "butt",
+  lineJoin: "miter",
+  font: "10px sans-serif",
+  textAlign: "start",
+  textBaseline: "alphabetic",
+};
 const ANCHOR: Record<string, string> = { center: "middle", right: "end", end: "end" };
 const SHIFT: Record<string, number> = { middle: 0.35, top: 0.8, hanging: 0.8, bottom: -0.2 }; // of the font's size
 
@@ -39,13 +49,27 @@ export class SvgPaper {
     return `<svg xmlns="http://www.w3.org/2000/svg" ${size} font-family="system-ui, sans-serif"><defs>${this.clips.join("")}</defs>${this.parts.join("")}${"</g>".repeat(this.depth)}</svg>\n`;
   }
 
-  beginPath(): void { this.path = ""; }
-  moveTo(x: number, y: number): void { this.path += `M${n(x)} ${n(y)}`; }
-  lineTo(x: number, y: number): void { this.path += `${this.path ? "L" : "M"}${n(x)} ${n(y)}`; }
-  closePath(): void { this.path += "Z"; }
-  rect(x: number, y: number, w: number, h: number): void { this.path += `M${n(x)} ${n(y)}h${n(w)}v${n(h)}h${n(-w)}Z`; }
-  quadraticCurveTo(a: number, b: number, x: number, y: number): void { this.path += `Q${n(a)} ${n(b)} ${n(x)} ${n(y)}`; }
-  bezierCurveTo(a: number, b: number, c: number, d: number, x: number, y: number): void { this.path += `C${n(a)} ${n(b)} ${n(c)} ${n(d)} ${n(x)} ${n(y)}`; }
+  beginPath(): void {
+    this.path = "";
+  }
+  moveTo(x: number, y: number): void {
+    this.path += `M${n(x)} ${n(y)}`;
+  }
+  lineTo(x: number, y: number): void {
+    this.path += `${this.path ? "L" : "M"}${n(x)} ${n(y)}`;
+  }
+  closePath(): void {
+    this.path += "Z";
+  }
+  rect(x: number, y: number, w: number, h: number): void {
+    this.path += `M${n(x)} ${n(y)}h${n(w)}v${n(h)}h${n(-w)}Z`;
+  }
+  quadraticCurveTo(a: number, b: number, x: number, y: number): void {
+    this.path += `Q${n(a)} ${n(b)} ${n(x)} ${n(y)}`;
+  }
+  bezierCurveTo(a: number, b: number, c: number, d: number, x: number, y: number): void {
+    this.path += `C${n(a)} ${n(b)} ${n(c)} ${n(d)} ${n(x)} ${n(y)}`;
+  }
 
   arc(x: number, y: number, r: number, from: number, to: number): void {
     const point = (angle: number): string => `${n(x + r * Math.cos(angle))} ${n(y + r * Math.sin(angle))}`;
@@ -54,23 +78,48 @@ export class SvgPaper {
     this.path += `${this.path ? "L" : "M"}${point(from)}${bow}${point(middle)}${bow}${point(to)}`;
   }
 
-  fill(): void { this.add(`<path d="${this.path}" fill="${this.fillStyle}"${this.opacity}/>`); }
-  stroke(): void { this.add(`<path d="${this.path}" fill="none"${this.pen}/>`); }
-  fillRect(x: number, y: number, w: number, h: number): void { this.add(`<rect ${box(x, y, w, h)} fill="${this.fillStyle}"${this.opacity}/>`); }
-  strokeRect(x: number, y: number, w: number, h: number): void { this.add(`<rect ${box(x, y, w, h)} fill="none"${this.pen}/>`); }
-  clearRect(): void { /* nothing is there yet */ }
-  setLineDash(dash: number[]): void { this.dash = dash; }
-  measureText(words: string): TextMetrics { this.measure.font = this.font; return this.measure.measureText(words); }
-  translate(x: number, y: number): void { this.turns.push(`translate(${n(x)} ${n(y)})`); }
-  rotate(angle: number): void { this.turns.push(`rotate(${n((angle * 180) / Math.PI)})`); }
-  scale(x: number, y: number): void { this.turns.push(`scale(${n(x)} ${n(y)})`); }
-  strokeText(): void { /* halos of words are left out */ }
+  fill(): void {
+    this.add(`<path d="${this.path}" fill="${this.fillStyle}"${this.opacity}/>`);
+  }
+  stroke(): void {
+    this.add(`<path d="${this.path}" fill="none"${this.pen}/>`);
+  }
+  fillRect(x: number, y: number, w: number, h: number): void {
+    this.add(`<rect ${box(x, y, w, h)} fill="${this.fillStyle}"${this.opacity}/>`);
+  }
+  strokeRect(x: number, y: number, w: number, h: number): void {
+    this.add(`<rect ${box(x, y, w, h)} fill="none"${this.pen}/>`);
+  }
+  clearRect(): void {
+    /* nothing is there yet */
+  }
+  setLineDash(dash: number[]): void {
+    this.dash = dash;
+  }
+  measureText(words: string): TextMetrics {
+    this.measure.font = this.font;
+    return this.measure.measureText(words);
+  }
+  translate(x: number, y: number): void {
+    this.turns.push(`translate(${n(x)} ${n(y)})`);
+  }
+  rotate(angle: number): void {
+    this.turns.push(`rotate(${n((angle * 180) / Math.PI)})`);
+  }
+  scale(x: number, y: number): void {
+    this.turns.push(`scale(${n(x)} ${n(y)})`);
+  }
+  strokeText(): void {
+    /* halos of words are left out */
+  }
 
   fillText(words: string, x: number, y: number): void {
     const [, weight, size] = /(?:(\d+) )?([\d.]+)px/.exec(this.font) ?? ["", "", "10"];
     const down = y + (SHIFT[this.textBaseline] ?? 0) * Number(size);
     const bold = weight ? ` font-weight="${weight}"` : "";
-    this.add(`<text x="${n(x)}" y="${n(down)}" font-size="${size}"${bold} text-anchor="${ANCHOR[this.textAlign] ?? "start"}" fill="${this.fillStyle}"${this.opacity}>${escaped(words)}</text>`);
+    this.add(
+      `<text x="${n(x)}" y="${n(down)}" font-size="${size}"${bold} text-anchor="${ANCHOR[this.textAlign] ?? "start"}" fill="${this.fillStyle}"${this.opacity}>${escaped(words)}</text>`,
+    );
   }
 
   clip(): void {

@@ -40,12 +40,18 @@ describe("The range of an axis", () => {
 
 describe("Time on an axis", () => {
   it("is in the unit that a person would take", () => {
-    assert.deepEqual([60, 600, 10_000].map((seconds) => timeUnit(seconds).name), ["s", "min", "h"]);
+    assert.deepEqual(
+      [60, 600, 10_000].map((seconds) => timeUnit(seconds).name),
+      ["s", "min", "h"],
+    );
   });
 });
 
 describe("The last at or before", () => {
   it("is found among rising numbers", () => {
-    assert.deepEqual([-1, 0, 5, 10, 99].map((at) => lastAt([0, 5, 10], at)), [-1, 0, 1, 2, 2]);
+    assert.deepEqual(
+      [-1, 0, 5, 10, 99].map((at) => lastAt([0, 5, 10], at)),
+      [-1, 0, 1, 2, 2],
+    );
   });
 });

@@ -29,11 +29,9 @@ export function makeFrame(made: Made): ArrayBuffer {
   view.setUint32(4, made.step ?? 0, true);
   view.setUint32(8, agents, true);
   view.setUint32(12, targets.length, true);
-  view.setUint32(16, links[0]?.length ?? 0, true);
-  for (const [n, value] of (made.measures ?? []).entries()) view.setFloat32(20 + 4 * n, value, true);
   view.setUint16(16, links[0]?.length ?? 0, true);
+  for (const [n, value] of (made.measures ?? []).entries()) view.setFloat32(20 + 4 * n, value, true);
   view.setUint16(18, made.memory?.length ?? 0, true);
-  (made.measures ?? []).forEach((value, n) => view.setFloat32(20 + 4 * n, value, true));
   let at = 84;
   const floats = (values: number[]): void => {
     for (const value of values) view.setFloat32(at, value, true), (at += 4);

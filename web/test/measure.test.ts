@@ -6,7 +6,13 @@ const origin = { x: 0, y: 0 };
 
 describe("Between two points", () => {
   it("bearings are those of a compass: north 0, east 90", () => {
-    const bearings = [[0, 1], [1, 0], [0, -1], [-1, 0], [-1, 1]].map(([x, y]) => between(origin, { x, y }).bearing);
+    const bearings = [
+      [0, 1],
+      [1, 0],
+      [0, -1],
+      [-1, 0],
+      [-1, 1],
+    ].map(([x, y]) => between(origin, { x, y }).bearing);
     assert.deepEqual(bearings, [0, 90, 180, 270, 315]);
   });
 

@@ -23,6 +23,10 @@ describe("A frame", () => {
         links: [[6], [1], [0]],
         run: 1, epoch: 7, step: 70000, x: [1.5, -2.5, 4], y: [0.5, 1, 2], degree: [2, 1, 600], flags: [3, 2, 1],
         targets: [[8, -8, 1], [1, 2, 0]], measures, links: [[6], [1], [0]], memory: [[5, 6, 7], [8, 9, 10]],
+        memory: [
+          [5, 6, 7],
+          [8, 9, 10],
+        ],
       }),
     );
     assert.deepEqual([frame.run, frame.epoch, frame.step], [1, 7, 70000]);
@@ -31,7 +35,13 @@ describe("A frame", () => {
     assert.deepEqual([...frame.x], [1.5, -2.5, 4]);
     assert.deepEqual([...frame.y], [0.5, 1, 2]);
     assert.deepEqual([...frame.vx, ...frame.vy, ...frame.repulsion], [0, 1, 2, 10, 11, 12, 20, 21, 22]);
-    assert.deepEqual(frame.memory.map((field) => [...field]), [[5, 6, 7], [8, 9, 10]]);
+    assert.deepEqual(
+      frame.memory.map((field) => [...field]),
+      [
+        [5, 6, 7],
+        [8, 9, 10],
+      ],
+    );
     assert.deepEqual([...frame.targetX, ...frame.targetY], [8, 1, -8, 2]);
     assert.deepEqual([...frame.degree], [2, 1, 600]);
     assert.deepEqual([frame.linkBytes, ...frame.links], [1, 6, 1, 0]);

@@ -9,7 +9,13 @@ import { SvgPaper } from "../src/svgpaper";
 import { Tape } from "../src/tape";
 import { makeFrame } from "./bytes";
 
-const SCENE = { time_step: 0.1, series: [{ name: "speed", unit: "m/s" }, { name: "coverage", unit: "1" }] } as unknown as Scene;
+const SCENE = {
+  time_step: 0.1,
+  series: [
+    { name: "speed", unit: "m/s" },
+    { name: "coverage", unit: "1" },
+  ],
+} as unknown as Scene;
 
 describe("The table of numbers", () => {
   it("has a row for each step, SI, and nothing where there is no value", () => {
@@ -32,9 +38,9 @@ describe("An SVG", () => {
     sheet.setLineDash([5, 4]);
     sheet.beginPath();
     sheet.moveTo(1, 2);
-    sheet.lineTo(3.14159, 4);
+    sheet.lineTo(3.1459, 4);
     sheet.stroke();
-    assert.match(sheet.text, /<path d="M1 2L3.14 4" fill="none" stroke="#123456" stroke-width="1" stroke-dasharray="5 4"\/>/);
+    assert.match(sheet.text, /<path d="M1 2L3.15 4" fill="none" stroke="#123456" stroke-width="1" stroke-dasharray="5 4"\/>/);
   });
 
   it("ends what restore ends: style and clip", () => {
