@@ -7,6 +7,7 @@ from shoal.core import wire
 from shoal.core.version import RESULTS_VERSION
 from shoal.experiments import store_rows
 from shoal.record import content
+from shoal.run import change_log
 from shoal.viewer import bulletin, frame
 
 PAGE = (Path(__file__).resolve().parents[1] / "docs/reference/versions.md").read_text(encoding="utf-8")
@@ -18,6 +19,7 @@ def test_formats_are_those_of_the_code():
         "record": content.FORMAT,
         "store": store_rows.FORMAT,
         "report": wire.VERSION,
+        "log": change_log.FORMAT,
         "frame": frame.FORMAT,
         "bulletin": bulletin.FORMAT,
     }

@@ -106,7 +106,8 @@ STATE = """() => JSON.stringify([
         ["checkbox", "radio"].includes(each.type) ? each.checked : each.value),
     [...document.querySelectorAll("[aria-pressed], [aria-expanded], details, dialog")].map((each) =>
         [each.ariaPressed, each.ariaExpanded, each.open]),
-    shoal.playing(), shoal.step(), shoal.saved(), document.documentElement.dataset.theme, document.querySelector("#about").textContent,
+    shoal.playing(), shoal.step(), shoal.saved(),
+    document.documentElement.dataset.theme, document.querySelector("#about").textContent,
     document.activeElement.matches("canvas") && document.querySelector(".place").textContent,
 ])"""
 STOP = """() => {
@@ -122,7 +123,8 @@ USED_BY = {
     "button": ["Enter"],
 }
 ALWAYS_THERE = {
-    "Panels (B)", "Full screen (Z)", "Dark or light (D)", "Keys (?)", "Metric of chart 1", "Measure", "CSV", "Swarm", "Look", "Strategy",
+    "Panels (B)", "Full screen (Z)", "Dark or light (D)", "Keys (?)", "Metric of chart 1", "Measure", "CSV",
+    "Swarm", "Look", "Strategy",
     "Neighbors heard, k", "Target speed", "Fast buoys", "Parameters of the strategy", "Seed", "Restart", "Trails",
     "Restart from step 0 (R)", "One step back (←)", "Play (space)", "One step forward (→)", "Step shown", "Speed",
 }  # fmt: skip

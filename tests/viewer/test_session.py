@@ -241,7 +241,7 @@ class TestRecording:
         with pytest.raises(ScenarioError, match="a record has one of each"):
             one.obey(parse_request(json.dumps(request_)))
         assert bits(one) == before
-        assert one.helm.log.entries == ()
+        assert one.steersman.log.entries == ()
 
     def test_all_else_can_be_changed_until_it_is_complete(self):
         one = played(session(limit=10), 4)
@@ -249,7 +249,7 @@ class TestRecording:
         ask(one, "kill", agent=3)
         ask(one, "drag", x=1.0, y=1.0)
         played(one, 10)
-        assert [entry.step for entry in one.helm.log.entries] == [4, 4, 4]
+        assert [entry.step for entry in one.steersman.log.entries] == [4, 4, 4]
         with pytest.raises(ScenarioError, match="the record is complete"):
             ask(one, "restart")
 

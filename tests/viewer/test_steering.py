@@ -33,9 +33,9 @@ def saved(page, button, folder):
 
 def steer(session, page, act):
     """Do what changes the run, and wait until it has."""
-    before, begun = session.helm.changes, time.monotonic()
+    before, begun = session.steersman.changes, time.monotonic()
     act()
-    while session.helm.changes == before:
+    while session.steersman.changes == before:
         assert time.monotonic() - begun < 120.0
         page.wait_for_timeout(20)
 

@@ -225,8 +225,8 @@ def _record(session: "Session", out: Path) -> None:
 
     planned, steps = session.runs[0].simulation.scenario, session.number
     with progress_bar(f"recording {steps:,} steps") as progress:
-        if session.helm.changes:
-            replay_changes(session.helm.log, out=out, progress=progress)
+        if session.steersman.changes:
+            replay_changes(session.steersman.log, out=out, progress=progress)
         else:
             simulate(Scenario.model_validate({**dict(planned), "steps": steps}), out=out, progress=progress)
     note(f"record: {out}, {steps:,} of {planned.steps:,} steps (shoal show {out})")

@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable, Collection, Sequence
 
 from shoal.core.links import link_bytes
+from shoal.record.charted import FIRST, describe_metric
 from shoal.record.trajectory import Trajectory
 from shoal.run.simulation import Simulation
 from shoal.scenario.crew import crew_of
@@ -11,7 +12,6 @@ from shoal.scenario.schema import Scenario
 from shoal.viewer.bulletin import Bulletin
 from shoal.viewer.frame import pack
 from shoal.viewer.gauging import Gauging
-from shoal.viewer.offered import FIRST, describe_metric
 from shoal.viewer.scene import scene_of
 
 EVERY = 0.04  # [s] between two bulletins, at least

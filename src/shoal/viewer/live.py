@@ -10,7 +10,7 @@ from shoal.viewer.conditions import comings_and_goings
 from shoal.viewer.frame import FULL, pack
 from shoal.viewer.gauging import Gauging
 from shoal.viewer.geography import geography_of
-from shoal.viewer.offered import Offered
+from shoal.viewer.measures import Measures
 from shoal.viewer.scene import as_json, scene_of
 
 
@@ -25,7 +25,7 @@ class LiveRun(SteeredRun):
     simulation : the run; its scenario is the current one
     since : the step at which its sums began
     message : the current scene, as the page gets it
-    offered : what can be charted of it
+    measures : its metrics, to be charted
     """
 
     def __init__(
@@ -52,7 +52,7 @@ class LiveRun(SteeredRun):
 
     def numbers(self) -> str:
         """What the metrics are now, as the page gets it."""
-        values = self.offered.values(self.simulation.tally)
+        values = self.measures.values(self.simulation)
         return as_json({"type": "numbers", "run": self.place, "step": self.simulation.number, "values": values})
 
     def _settle(self, simulation: Simulation, before: Simulation | None) -> None:
@@ -62,7 +62,7 @@ class LiveRun(SteeredRun):
         else:
             self._gauging.begin_anew(before, scenario)
         super()._settle(simulation, before)
-        self.offered = Offered(scenario)
+        self.measures = Measures(scenario)
         self._epoch += 1
         self.since = simulation.number
         agents = scenario.agents
@@ -76,5 +76,5 @@ class LiveRun(SteeredRun):
             ends=self.ends,
             geography=geography_of(simulation.scenario),
         )
-        scene["series"] = self.offered.told()
+        scene["series"] = self.measures.told()
         self.message = as_json({"type": "scene", "run": self.place, "scene": scene})

@@ -5,13 +5,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from shoal.record.charted import describe_metric, in_order
 from shoal.record.course import Course
 from shoal.record.frames import Moment, engaged_by_frame, moment_of
 from shoal.record.record import Record
 from shoal.viewer.conditions import kept_comings_and_goings
 from shoal.viewer.frame import FULL, RECENT, Gauges, pack
 from shoal.viewer.geography import geography_of
-from shoal.viewer.offered import describe_metric, in_order
 from shoal.viewer.scene import scene_of
 
 MOST_STEERED = 1000  # changes of a steered run that a page is told

@@ -8,12 +8,12 @@ from shoal.run.changes import Restart
 from shoal.run.settings import Table
 from shoal.run.simulate import chunk_steps
 from shoal.strategies import CATALOGUE
-from shoal.viewer.helm import Helm
 from shoal.viewer.live import LiveRun
 from shoal.viewer.requests import FASTEST, SLOWEST, Export, Pause, Play, Request, Seek, Speed, Step
 from shoal.viewer.ring import Kept, Ring
 from shoal.viewer.scene import as_json, describe
 from shoal.viewer.sent import file_of, history_of, words_at_end
+from shoal.viewer.steersman import Steersman
 
 SPEEDS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 ROOM = 64_000_000  # bytes of frames that can be sought
@@ -70,7 +70,7 @@ class Session:
         self.busy: str | None = None
         self.ended: str | None = None
         self.on_busy: Callable[[], None] = lambda: None
-        self.helm = Helm(self.runs, where, script, self._set_busy)
+        self.steersman = Steersman(self.runs, where, script, self._set_busy)
         self._ring = Ring(room)
         self._keep()
 
@@ -112,8 +112,8 @@ class Session:
                 "busy": self.busy,
                 "ended": self.ended,
                 "complete": self.done,
-                "script": self.helm.script_end,
-                "changes": self.helm.changes,
+                "script": self.steersman.script_end,
+                "changes": self.steersman.changes,
             }
         )
 
@@ -162,7 +162,7 @@ class Session:
             case _:
                 if self.done:
                     raise ScenarioError("request", "the record is complete", "watch without --out to go on")
-                self.helm.obey(request)
+                self.steersman.obey(request)
                 self._keep(anew=isinstance(request, Restart))
 
     def export(self, request: Export) -> str:
@@ -172,7 +172,7 @@ class Session:
         ------
         ScenarioError : there is no such run
         """
-        return file_of(request, self.helm.run(request.run), self.helm.log)
+        return file_of(request, self.steersman.run(request.run), self.steersman.log)
 
     def _step(self, steps: int) -> None:
         if steps > 0 and self.shown is self._ring.newest:
@@ -181,14 +181,14 @@ class Session:
             self.shown = self._ring.beside(self.shown.step, steps)
 
     def _advance(self, until: int) -> None:
-        restarted = self.helm.advance(until if self.limit is None else min(until, self.limit))
-        if self.helm.end_script():
+        restarted = self.steersman.advance(until if self.limit is None else min(until, self.limit))
+        if self.steersman.end_script():
             self.playing = False
         self._keep(anew=restarted)
 
     def _pausing_at(self, until: int) -> int:
         """Until where to play: where a log or a recorded track ends, time stops once."""
-        ends = [self.helm.stop_of_script(), *(run.ends for run in self.runs)]
+        ends = [self.steersman.stop_of_script(), *(run.ends for run in self.runs)]
         stop = min((each for each in ends if each is not None and self.number < each <= until), default=None)
         if stop is None:
             return until

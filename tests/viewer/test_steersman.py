@@ -1,4 +1,4 @@
-"""The helm of a session: changes are logged, and a log is followed to the same bits."""
+"""The steersman of a session: changes are logged, and a log is followed to the same bits."""
 
 import json
 
@@ -44,10 +44,10 @@ def test_it_makes_the_same_bits(steered, log):
     for _ in range(100):
         if again.playing:
             again.play_on()
-    assert (again.number, again.playing, again.helm.script_end) == (70, False, None)
+    assert (again.number, again.playing, again.steersman.script_end) == (70, False, None)
     assert bits(again) == bits(steered)
     assert again.runs[0].message == steered.runs[0].message
-    assert again.helm.log == log
+    assert again.steersman.log == log
 
 
 def test_a_target_dragged_on_at_one_step_is_logged_once(log):

@@ -1,4 +1,4 @@
-"""The helm of a session: changes its runs, logs that, and makes the changes of a log when their steps come."""
+"""The steersman of a session: changes its runs, logs that, and makes the changes of a log when their steps come."""
 
 from collections import deque
 from collections.abc import Callable, Sequence
@@ -10,7 +10,7 @@ from shoal.scenario.crew import crew_of
 from shoal.viewer.live import LiveRun
 
 
-class Helm:
+class Steersman:
     """Steers runs that are in step with each other.
 
     Parameters
@@ -89,7 +89,7 @@ class Helm:
         return restarted
 
     def end_script(self) -> bool:
-        """Leave the helm to others where the script has ended; return whether it ended just now."""
+        """Let others steer where the script has ended; return whether it ended just now."""
         ends = self.script_end is not None and not self._script and self._number >= self.script_end
         if ends:
             self.script_end = None
