@@ -1,4 +1,4 @@
-// uPlot without what the page has no use for: bars, steps, splines, calendars and logarithms. A fifth of it.
+// uPlot without what the page has no use for: bars, bands, steps, splines, calendars, logarithms and ranges of its own. A fifth of it.
 import { readFile } from "node:fs/promises";
 
 const STUBS = {
@@ -13,6 +13,11 @@ const STUBS = {
   asinhAxisSplits: "return [];",
   log10AxisValsFilt: "return splits;",
   log2AxisValsFilt: "return splits;",
+  _rangeNum: "return [_min, _max];",
+  bandFillClipDirs: "return [0, 0];",
+  clipBandLine: "return null;",
+  snapLogY: "return [dataMin, dataMax];",
+  snapAsinhY: "return [dataMin, dataMax];",
 };
 const LINES = ["(paths.stepped = stepped);", "(paths.bars    = bars);", "(paths.spline  = monotoneCubic);", "uPlot.tzDate  = tzDate;"];
 

@@ -118,9 +118,6 @@ export class App implements Listener {
       el("h2", { class: "unseen" }, "Numbers and controls"),
       this.arrangement.tabs,
       this.numbers.root,
-      el("div", { class: "controls" }, (this.swarm ?? this.roll)?.root ?? this.numbers.table, this.switches.root, this.conditions.root),
-      el("h2", { class: "unseen" }, "Numbers and controls"), this.arrangement.tabs, this.numbers.root,
-      el("div", { class: "controls" }, (this.swarm ?? this.roll)?.root ?? this.numbers.table, this.switches.root, this.inspector.root, this.numbers.tools, this.save.root, this.conditions.root),
       el(
         "div",
         { class: "controls" },

@@ -14,58 +14,6 @@ interface Plot {
 
 const FONT = "10.5px system-ui, sans-serif";
 
-/** Lines over steps. `top`: of the axis, null for the highest value, or `least` if all are lower. `marks`: steps with a dotted line, where the swarm was changed; `shown`: the step on the water. */
-export function drawLines(
-  canvas: HTMLCanvasElement,
-  theme: Theme,
-  lines: Line[],
-  options: { first: number; last: number; top: number | null; least: number; marks: number[]; shown: number },
-): void {
-  const { first, marks, shown } = options;
-  const last = Math.max(options.last, first + 1);
-  const plot = begin(canvas, 30, 17);
-  const { context, left, right, top, bottom } = plot;
-  const most = options.top ?? 1.08 * lines.reduce((high, line) => Math.max(high, highest(line.values)), options.least);
-  const toX = (step: number): number => left + ((step - first) / (last - first)) * (right - left);
-  const toY = (value: number): number => bottom - (Math.min(value, most) / most) * (bottom - top);
-  drawGrid(plot, theme, most, toY);
-  context.fillStyle = theme.muted;
-  context.textBaseline = "top";
-  context.textAlign = "left";
-  context.fillText(`step ${count(first)}`, left, bottom + 4);
-  context.textAlign = "right";
-  context.fillText(count(last), right, bottom + 4);
-  for (const mark of marks) {
-    if (mark > first && mark < last) drawUpright(plot, toX(mark), theme.muted, [1, 2]);
-  }
-  context.save();
-  context.beginPath();
-  context.rect(left, top - 2, right - left + 1, bottom - top + 4);
-  context.clip();
-  for (const line of lines) {
-    context.strokeStyle = line.color;
-    context.lineWidth = line.width;
-    context.lineJoin = context.lineCap = "round";
-    context.setLineDash(line.dash ?? []);
-    context.beginPath();
-    let drawing = false;
-    for (let n = 0; n < line.step.length; n++) {
-      const value = line.values[n];
-      if (!Number.isFinite(value)) drawing = false;
-      else if (drawing) context.lineTo(toX(line.step[n]), toY(value));
-      else {
-        context.moveTo(toX(line.step[n]), toY(value));
-        context.lineTo(toX(line.step[n]), toY(value)); // a point alone is a dot
-        drawing = true;
-      }
-    }
-    context.stroke();
-  }
-  context.restore();
-  context.setLineDash([]);
-  if (shown >= first && shown < last) drawUpright(plot, toX(shown), theme.ink, []);
-}
-
 /** Bars of phi: how many agents head away from the target (-1), across or nowhere (0), toward it (+1). */
 export function drawPhi(canvas: HTMLCanvasElement, theme: Theme, runs: { phi: Float32Array; color: string }[]): void {
   const plot = begin(canvas, 30, 30);

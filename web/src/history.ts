@@ -4,16 +4,6 @@ import type { Frame, Past, Scene } from "./protocol";
 
 const MOST = 4000; // points; then every second one goes
 
-export const SERIES = ["timeOnTarget", "timeOnTargetRecent", "xi", "xiNow", "engaged"] as const;
-export type Series = (typeof SERIES)[number];
-
-const NAMES = {
-  timeOnTarget: "time_on_target",
-  timeOnTargetRecent: "recent",
-  xi: "xi",
-  xiNow: "xi_now",
-  engaged: "engaged",
-} as const;
 /** What frames say of themselves, by the names of the engine; other series are metrics. */
 const GAUGES: Record<string, (frame: Frame) => number> = {
   time_on_target: (frame) => frame.timeOnTarget,

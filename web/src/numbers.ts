@@ -11,50 +11,6 @@ import type { Metric, Scene, Series } from "./protocol";
 
 export type { RunNumbers } from "./lines";
 
-const MEASURES: Measure[] = [
-  {
-    title: "Time on target",
-    unit: "share of steps",
-    value: "timeOnTarget",
-    recent: "timeOnTargetRecent",
-    recentWords: "last 1\u2009000",
-    record: "time_on_target",
-    decimals: 3,
-    top: 1,
-    least: 1,
-  },
-  {
-    title: "Velocity fluctuation Ξ",
-    unit: "of mean top speed",
-    value: "xi",
-    recent: "xiNow",
-    recentWords: "now",
-    record: "xi",
-    decimals: 3,
-    top: null,
-    least: 0.01,
-  },
-  {
-    title: "Engaged",
-    unit: "agents on target now",
-    value: "engaged",
-    recent: null,
-    recentWords: "",
-    record: null,
-    decimals: 0,
-    top: null,
-    least: 1,
-  },
-];
-
-/** What one run has to show. */
-export interface RunNumbers {
-  history: History;
-  scene: Scene | null;
-  frame: Frame | null;
-  since: number; // step at which the means of the frame began
-  marks: number[]; // steps at which the swarm was changed
-}
 const CHARTS = 3;
 
 interface Card {
@@ -82,13 +38,6 @@ export class Numbers {
   private cursor: number | null = null;
   private again = (): void => undefined;
 
-  constructor(private readonly letters: string[]) {
-    this.cards = MEASURES.map((measure) => {
-      const canvas = el("canvas", { role: "img", "aria-label": `${measure.title} over steps` });
-      const card = { measure, canvas, value: el("div", { class: "value" }), words: el("p", { class: "words" }) };
-      this.root.append(el("section", { class: "card" }, el("div", { class: "top" }, el("h3", {}, measure.title), card.value), card.words, canvas));
-      return card;
-    });
   constructor(letters: string[]) {
     const redraw = (): void => {
       this.again();
@@ -282,8 +231,6 @@ function metricRow({ name, label, unit, sentence, mean, low, high }: Metric): HT
   const text = estimate(mean, low, high);
   return el(
     "tr",
-    { "data-metric": name },
-    "tr", { "data-metric": name, title: sentence },
     { "data-metric": name, title: sentence },
     el("th", { scope: "row" }, label, unit === "1" ? null : el("span", { class: "of" }, ` [${unit}]`)),
     el("td", { class: "mean" }, text.mean),

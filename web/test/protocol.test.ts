@@ -21,8 +21,6 @@ describe("A frame", () => {
         ],
         measures,
         links: [[6], [1], [0]],
-        run: 1, epoch: 7, step: 70000, x: [1.5, -2.5, 4], y: [0.5, 1, 2], degree: [2, 1, 600], flags: [3, 2, 1],
-        targets: [[8, -8, 1], [1, 2, 0]], measures, links: [[6], [1], [0]], memory: [[5, 6, 7], [8, 9, 10]],
         memory: [
           [5, 6, 7],
           [8, 9, 10],
