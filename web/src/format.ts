@@ -42,16 +42,27 @@ export function time(seconds: number): string {
   return `${fixed(seconds, 1)} s`;
 }
 
-/** A mean and its interval, to two digits of the interval's half-width. */
+/** A mean and its interval, told as src/shoal/record/words.py tells it: to two digits of the interval's half-width. */
 export function estimate(mean: number | null, low: number | null, high: number | null): { mean: string; interval: string } {
   if (mean === null || !Number.isFinite(mean)) return { mean: "unknown", interval: "" };
-  if (low === null || high === null || !Number.isFinite(high - low)) {
-    return { mean: fixed(mean, decimals(Math.abs(mean) / 10)), interval: "" };
-  }
-  const digits = decimals((high - low) / 2);
-  return { mean: fixed(mean, digits), interval: `[${fixed(low, digits)}, ${fixed(high, digits)}]` };
+  if (low === null || high === null || !Number.isFinite(high - low)) return { mean: told(mean, alone(mean)), interval: "" };
+  const digits = high > low ? decimals((high - low) / 2) : alone(mean);
+  return { mean: told(mean, digits), interval: `[${told(low, digits)}, ${told(high, digits)}]` };
+}
+
+/** A number with so many decimals, thousands apart; negative: of tens, hundreds. */
+function told(value: number, digits: number): string {
+  const size = 10 ** Math.max(-digits, 0);
+  const rounded = digits < 0 ? Math.round(value / size) * size : value;
+  const [whole = "", part] = fixed(rounded, Math.max(digits, 0)).split(".");
+  return whole.replace(/\B(?=(\d{3})+$)/g, THIN) + (part === undefined ? "" : `.${part}`);
+}
+
+/** Of a number without an interval: a whole one has none, others three digits. */
+function alone(mean: number): number {
+  return Number.isInteger(mean) ? 0 : Math.max(decimals(Math.abs(mean) / 10), 0);
 }
 
 function decimals(half: number): number {
-  return half > 0 && Number.isFinite(half) ? Math.min(Math.max(1 - Math.floor(Math.log10(half)), 0), 4) : 3;
+  return Math.min(1 - Math.floor(Math.log10(half)), 6);
 }

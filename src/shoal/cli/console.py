@@ -4,6 +4,7 @@ import sys
 from typing import IO, Any, NoReturn
 
 from rich.console import Console
+from rich.table import Table
 from rich.text import Text
 
 from shoal.core.text import plain
@@ -34,6 +35,14 @@ def results_console() -> Console:
 def progress_console() -> Console:
     """Return a console on stderr."""
     return _PlainConsole(sys.stderr)
+
+
+def print_table(console: Console, table: Table) -> None:
+    """Print a table without blanks at the ends of its lines."""
+    for line in console.render_lines(table, pad=False):
+        text = Text.assemble(*((piece.text, piece.style or "") for piece in line))
+        text.rstrip()
+        console.print(text, no_wrap=True, crop=False, overflow="ignore")
 
 
 def styled(text: str, style: str) -> Text:

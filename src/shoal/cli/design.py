@@ -32,6 +32,7 @@ def design(
     device: Literal["cpu", "cuda"] = "cpu",
     out: Path | None = None,
     figure: Path | None = None,
+    width: Literal["single", "double"] = "double",
     report: Path | None = None,
     json_: Annotated[bool, Parameter(name="--json", negative=())] = False,
 ) -> None:
@@ -71,6 +72,8 @@ def design(
         Keep all runs in this folder; the same command again resumes, with more --trials it goes on.
     figure
         Draw the front to this file (.png, .svg or .pdf).
+    width
+        Of the figure: one column of a journal (single, 3.5 in) or two (double, 7.16 in).
     report
         Write one page of HTML for whoever buys to this file.
     json_
@@ -104,7 +107,7 @@ def design(
     if figure:
         from shoal.drawing.files import save_figure
 
-        save_figure(found.plot(), figure)
+        save_figure(found.plot(width), figure)
         note(f"figure: {figure}")
     if report:
         found.report(report)

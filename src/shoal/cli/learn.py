@@ -13,7 +13,6 @@ from shoal.cli.startup import load_compiler
 
 if TYPE_CHECKING:
     from shoal.learn.search import Generation
-    from shoal.record.statistics import Estimate
 
 SECONDS_BETWEEN_LINES = 10.0
 
@@ -63,6 +62,7 @@ def learn(
     from shoal.core.errors import ScenarioError
     from shoal.core.units import Unit
     from shoal.learn.train import Terms, train
+    from shoal.record.words import estimate_text
 
     check_positive(steps=steps, runs=runs, jobs=jobs)
     try:
@@ -82,9 +82,10 @@ def learn(
             note(f"stopped: {out} holds what {progress.generations} generations found")
         raise
     note(f"strategy: {out} (shoal run {scenario} --strategy {out})")
-    result = f"time on target {_shown(learned.learned)} after {learned.generations} generations"
+    result = f"time on target {estimate_text(learned.learned)} after {learned.generations} generations"
     what = "learned" if learned.is_better else "nothing better than the start was found; the start"
-    write(f"{what}: {result}, {_shown(learned.start)} at the start; {len(learned.start.runs)} runs of a fresh seed\n")
+    before = f"{estimate_text(learned.start)} at the start; {len(learned.start.runs)} runs of a fresh seed"
+    write(f"{what}: {result}, {before}\n")
 
 
 class _Progress:
@@ -101,8 +102,3 @@ class _Progress:
             self._last = time.monotonic()
             found = f"its candidates {generation.score:.3f} on target, the best {generation.best:.3f}"
             note(f"{100 * min(share, 1.0):.0f} %: generation {generation.number}, {found}")
-
-
-def _shown(known: "Estimate") -> str:
-    interval = f" ({known.ci95[0]:.3f} to {known.ci95[1]:.3f})" if known.ci95 else ""
-    return f"{known.mean:.3f}{interval}"

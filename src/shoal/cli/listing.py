@@ -1,4 +1,4 @@
-"""shoal presets, shoal strategies: what there is."""
+"""shoal presets, shoal strategies, shoal metrics: what there is."""
 
 import json
 from typing import Annotated
@@ -7,7 +7,7 @@ from cyclopts import Parameter
 from rich.table import Table
 from rich.text import Text
 
-from shoal.cli.console import results_console, small_print, styled
+from shoal.cli.console import print_table, results_console, small_print, styled
 from shoal.cli.output import write
 from shoal.cli.progress import note
 
@@ -55,8 +55,28 @@ def strategies(*, json_: Annotated[bool, Parameter(name="--json", negative=())] 
         _print_rows([(each.name, small_print(each.summary, each.reference or each.source)) for each in known])
 
 
+def metrics(*, json_: Annotated[bool, Parameter(name="--json", negative=())] = False) -> None:
+    """List what is measured, of installed packages too: what tables call it, its unit and what it means.
+
+    Parameters
+    ----------
+    json_
+        Print a JSON list instead.
+    """
+    from shoal.metrics.summary import METRICS
+    from shoal.record.names import label_of
+    from shoal.study.listing import list_metrics
+
+    if json_:
+        write(json.dumps([each._asdict() for each in list_metrics()]) + "\n")
+    else:
+        rows = [(name, small_print(label_of(name), each.sentence)) for name, each in METRICS.items()]
+        _print_rows(rows)
+        note("each is defined in docs/reference/metrics.md; --set metrics=NAME,NAME measures these alone")
+
+
 def _print_rows(rows: list[tuple[str, Text]]) -> None:
     table = Table(box=None, padding=(0, 2, 0, 0), show_header=False)
     for name, text in rows:
         table.add_row(name, text)
-    results_console().print(table)
+    print_table(results_console(), table)

@@ -40,6 +40,7 @@ app.command("shoal.cli.results:results", name="results", help="Print means and 9
 app.command("shoal.cli.results:plot", name="plot", help="Draw a metric of a sweep against a field.")
 app.command("shoal.cli.listing:presets", name="presets", help="List the scenarios that come with Shoal.")
 app.command("shoal.cli.listing:strategies", name="strategies", help="List the strategies that there are.")
+app.command("shoal.cli.listing:metrics", name="metrics", help="List what is measured: names, units, meanings.")
 app.command("shoal.cli.new_strategy:new_strategy", name="new-strategy", help="Write a strategy and its test, to edit.")
 app.command("shoal.cli.scenario:scenario", name="scenario", help="Print the TOML of a preset, to start your own from.")
 app.command("shoal.cli.scenario:check", name="check", help="Check that a scenario can run.")

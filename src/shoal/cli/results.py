@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter
 
@@ -79,6 +79,7 @@ def plot(
     y: str = "time_on_target",
     hue: str | None = None,
     figure: Annotated[Path | None, Parameter(name=["--figure", "--out"])] = None,
+    width: Literal["single", "double"] = "single",
 ) -> None:
     """Draw one metric of a sweep against a field, with bands of the 95 % interval.
 
@@ -94,6 +95,8 @@ def plot(
         Field that makes one curve per value; default the next field that varies.
     figure
         Picture to draw (.png, .svg or .pdf); default plot.png in the folder.
+    width
+        One column of a journal (single, 3.5 in) or two (double, 7.16 in).
     """
     from shoal.drawing.files import check_figure
     from shoal.experiments.results import read_rows
@@ -102,7 +105,7 @@ def plot(
     _tell_of(read_rows(folder)[1])
     target = figure or folder / "plot.png"
     check_figure(target)
-    save(curves(folder, x=x, y=y, hue=hue), target)
+    save(curves(folder, x=x, y=y, hue=hue, width=width), target)
     note(f"figure: {target}")
 
 
@@ -140,29 +143,16 @@ def _known(metrics: list[str]) -> list[str]:
 def _print_groups(groups: list[dict[str, Any]], by: list[str], metrics: list[str]) -> None:
     from rich.table import Table
 
-    from shoal.cli.console import results_console
-    from shoal.metrics.summary import METRICS
+    from shoal.cli.console import print_table, results_console
+    from shoal.record.names import label_of
+    from shoal.record.words import told
 
     if not groups:
         return
     table = Table(box=None, padding=(0, 2, 0, 0))
-    for name in (*by, "runs", *(_heading(METRICS[name]) for name in metrics)):
+    for name in (*by, "runs", *map(label_of, metrics)):
         table.add_column(name, justify="right", no_wrap=True)
     for group in groups:
-        cells = [_with_interval(group, name) for name in metrics]
+        cells = [told(group[name], group[f"{name}_low"], group[f"{name}_high"]) for name in metrics]
         table.add_row(*(str(group[name]) for name in by), str(group["runs"]), *cells)
-    results_console().print(table)
-
-
-def _heading(metric: Any) -> str:
-    """What a metric is called, with its unit if it has one that its words do not say."""
-    words: str = metric.words
-    return words if metric.unit == "1" or metric.unit in words.split() else f"{words} [{metric.unit}]"
-
-
-def _with_interval(group: dict[str, Any], name: str) -> str:
-    from shoal.record.words import decimals_of, spread_text
-
-    mean, low, high = group[name], group[f"{name}_low"], group[f"{name}_high"]
-    decimals = decimals_of(mean)
-    return f"{mean:.{decimals}f}{spread_text(mean, low, high, decimals)}" if mean == mean else "none"
+    print_table(results_console(), table)

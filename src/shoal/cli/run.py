@@ -35,6 +35,8 @@ def run(
     every: MaybeInteger = None,
     out: Path | None = None,
     figure: Path | None = None,
+    width: Literal["single", "double"] = "double",
+    all_: Annotated[bool, Parameter(name="--all", negative=())] = False,
     json_: Annotated[bool, Parameter(name="--json", negative=())] = False,
 ) -> None:
     """Run a scenario and print time on target, velocity fluctuation and heading-bearing correlation.
@@ -77,6 +79,10 @@ def run(
         Save the record to this new folder.
     figure
         Draw the result to this file (.png, .svg or .pdf).
+    width
+        Of the figure: one column of a journal (single, 3.5 in) or two (double, 7.16 in).
+    all_
+        Show all metrics, not only the eight that matter most: those of each fleet, target and change of the swarm, too.
     json_
         Print one JSON object and nothing else.
     """
@@ -109,4 +115,4 @@ def run(
     tell_of_compiling(chosen)
     with progress_bar(f"{chosen.name}, {runs} x {chosen.steps:,} steps") as progress:
         record = simulate(chosen, runs=runs, jobs=jobs, device=device, every=every, out=out, progress=progress)
-    tell(record, out, figure, json_)
+    tell(record, out, figure, json_, width=width, everything=all_)

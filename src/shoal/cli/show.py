@@ -1,7 +1,7 @@
 """shoal show: the table and the figure of a saved record."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
@@ -14,6 +14,8 @@ def show(
     /,
     *,
     figure: Path | None = None,
+    width: Literal["single", "double"] = "double",
+    all_: Annotated[bool, Parameter(name="--all", negative=())] = False,
     json_: Annotated[bool, Parameter(name="--json", negative=())] = False,
 ) -> None:
     """Print the table of a saved record, and draw its figure.
@@ -24,6 +26,10 @@ def show(
         Folder made by `shoal run --out`.
     figure
         Where to draw the figure (.png, .svg or .pdf).
+    width
+        Of the figure: one column of a journal (single, 3.5 in) or two (double, 7.16 in).
+    all_
+        Show all metrics, not only the eight that matter most: those of each fleet, target and change of the swarm, too.
     json_
         Print one JSON object and nothing else.
     """
@@ -39,9 +45,9 @@ def show(
 
         print_json(known)
     else:
-        print_record(known)
+        print_record(known, everything=all_)
     if figure:
         from shoal.study.plot import save, summary
 
-        save(summary(known), figure)
+        save(summary(known, width=width), figure)
         note(f"figure: {figure}")

@@ -9,8 +9,16 @@ if TYPE_CHECKING:
     from shoal.record.record import Record
 
 
-def tell(record: "Record", out: Path | None, figure: Path | None, as_json: bool) -> None:
-    """Print a record, and draw it if that was asked for."""
+def tell(
+    record: "Record",
+    out: Path | None,
+    figure: Path | None,
+    as_json: bool,
+    *,
+    width: str = "double",
+    everything: bool = False,
+) -> None:
+    """Print a record, `everything` of it or what matters most, and draw it, so wide, if that was asked for."""
     for each in record.provenance["notes"]:
         note(each)
     if out:
@@ -22,9 +30,9 @@ def tell(record: "Record", out: Path | None, figure: Path | None, as_json: bool)
     else:
         from shoal.cli.table import print_record
 
-        print_record(record)
+        print_record(record, everything=everything)
     if figure:
         from shoal.study.plot import save, summary
 
-        save(summary(record), figure)
+        save(summary(record, width=width), figure)
         note(f"figure: {figure}")

@@ -33,6 +33,7 @@ def tune(
     device: Literal["cpu", "cuda"] = "cpu",
     out: Path | None = None,
     figure: Path | None = None,
+    width: Literal["single", "double"] = "double",
     json_: Annotated[bool, Parameter(name="--json", negative=())] = False,
 ) -> None:
     """Look for the best values of some fields; print what they are worth on fresh seeds, beside the start.
@@ -71,6 +72,8 @@ def tune(
         Keep all runs in this folder; the same command again resumes, with more --trials it goes on.
     figure
         Draw the search to this file (.png, .svg or .pdf).
+    width
+        Of the figure: one column of a journal (single, 3.5 in) or two (double, 7.16 in).
     json_
         Print one JSON object and nothing else.
     """
@@ -97,7 +100,7 @@ def tune(
     if figure:
         from shoal.drawing.files import save_figure
 
-        save_figure(found.plot(), figure)
+        save_figure(found.plot(width), figure)
         note(f"figure: {figure}")
     point = found.result.winner.point
     if point and not json_:

@@ -39,12 +39,11 @@ def draw_arena(axes: "Axes", area: Area, pad: float = PAD) -> None:
     _label_axes(axes, width, height)
 
 
-def draw_scale_bar(axes: "Axes", points: npt.NDArray[np.float64]) -> None:
-    """Draw a bar of a round length in the corner of what the axes show that hides the fewest of these points (P, 2)."""
-    left, right = axes.get_xlim()
-    bottom, top = axes.get_ylim()
+def draw_scale_bar(axes: "Axes", area: Area, points: npt.NDArray[np.float64]) -> None:
+    """Draw a bar of a round length in the corner of the arena that hides the fewest of these points (P, 2)."""
+    left, right, bottom, top = -area.width / 2, area.width / 2, -area.height / 2, area.height / 2
     length = round_length(0.25 * (right - left))
-    pad = 0.045 * min(right - left, top - bottom)
+    pad = 0.06 * min(right - left, top - bottom)
     corners = [(x, y) for y in (bottom + pad, top - 1.5 * pad) for x in (left + pad, right - pad - length)]
 
     def hidden(corner: tuple[float, float]) -> int:

@@ -88,7 +88,7 @@ class ArenaDrawing:
         self.actors.append(AgentMarks(axes, record, reporting=dotted))
         self._tracks = [number for number, target in enumerate(targets) if target.kind == "track"]
         self._needs_scale = in_kilometers(record.scenario.area) or bool(self._tracks)
-        self._axes = axes
+        self._axes, self._area = axes, record.scenario.area
 
     def show(self, at: int) -> None:
         """Move everything to a frame."""
@@ -99,7 +99,7 @@ class ArenaDrawing:
         """Draw a scale bar where the axes are in km, or where a recorded track is; out of the track's way."""
         if self._needs_scale or always:
             paths = [target_points(self.frames, slice(None), number) for number in self._tracks]
-            draw_scale_bar(self._axes, np.concatenate([np.empty((0, 2)), *paths]))
+            draw_scale_bar(self._axes, self._area, np.concatenate([np.empty((0, 2)), *paths]))
 
     @property
     def artists(self) -> list[Any]:

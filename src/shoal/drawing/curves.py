@@ -9,6 +9,7 @@ import numpy.typing as npt
 from shoal.drawing.legend import headroom
 from shoal.drawing.style import GRAY, TARGET
 from shoal.drawing.words import count, estimate_text, legend_text
+from shoal.record.names import label_of
 from shoal.record.record import Record
 
 if TYPE_CHECKING:
@@ -50,25 +51,27 @@ def draw_band(
     axes.plot(at, middle, color=color, label=legend_text(label))
 
 
-def draw_curve(axes: "Axes", curve: Curve, color: str, marker: str, bold: bool = False) -> None:
+def draw_curve(axes: "Axes", curve: Curve, color: str, marker: str, *, bold: bool = False, line: Any = "-") -> None:
     """Draw a curve with its band and a marker per point; a single point gets its interval as a bar."""
     at, middle, bottom, top = (np.asarray(each, float) for each in (curve.x, curve.mean, curve.low, curve.high))
-    width, size = (2.2, 3.8) if bold else (1.3, 3.0)
+    width, size = (2.0, 3.8) if bold else (1.3, 3.2)
+    edge = 1.2 if marker in "x+" else 0.0
     draw_band(axes, at, middle, bottom, top, "", color)
-    axes.lines[-1].set_linewidth(width)
+    axes.lines[-1].set(linewidth=width, linestyle=line)
     if at.size == 1:
         axes.vlines(at, bottom, top, color=color, linewidth=1.4)
-    axes.plot(at, middle, marker, color=color, markersize=size, markeredgewidth=0, zorder=3)
+    axes.plot(at, middle, marker, color=color, markersize=size, markeredgewidth=edge, zorder=3)
     axes.plot(
         [],
         [],
-        f"{marker}-",
+        marker,
         color=color,
         markersize=4.5,
-        markeredgewidth=0,
+        markeredgewidth=edge,
         linewidth=width,
+        linestyle=line,
         label=legend_text(curve.label),
-    )  # for the legend
+    )  # fmt: skip  (for the legend)
 
 
 def draw_batches(axes: "Axes", record: Record) -> None:
@@ -126,8 +129,8 @@ def _label(axes: "Axes", record: Record) -> None:
     from matplotlib.ticker import FuncFormatter, MaxNLocator
 
     axes.set_title("Time on target")
-    axes.set_xlabel(f"step ({record.facts.time_step:g} s each)")
-    axes.set_ylabel("share of steps")
+    axes.set_xlabel(f"time [steps of {record.facts.time_step:g} s]")
+    axes.set_ylabel(label_of("time_on_target"))
     axes.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10], integer=True))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: count(round(value))))
     axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))

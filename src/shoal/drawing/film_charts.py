@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from shoal.drawing.histogram import label_phi
+from shoal.drawing.histogram import DENSITY, WIDTHS, label_phi
 from shoal.drawing.stretch import Stretch
-from shoal.drawing.style import GRAY, TARGET, fleet_color
+from shoal.drawing.style import GRAY, TARGET, fleet_color, fleet_line
 from shoal.drawing.words import count
 from shoal.record.frames import PHI_EDGES, moment_of
 from shoal.record.record import Record
@@ -30,7 +30,9 @@ class Charts:
         engaged: npt.NDArray[np.float64], left: float,
     ) -> None:  # fmt: skip
         page_width, page_height = figure.get_size_inches()
-        tall = (page_height - _TOP - _BOTTOM - _BETWEEN) / 2
+        several = stretch.frames.size > 1  # a still has no course
+        tall = page_height - _TOP - _BOTTOM - (_BETWEEN if several else 0.12)
+        tall = tall / 2 if several else min(tall, 2.6)
         left += _LEFT
         wide = page_width - left - _RIGHT
 
@@ -39,10 +41,10 @@ class Charts:
 
         self._step = np.asarray(record.trajectories[run].step)[stretch.frames]
         self._engaged = engaged
-        self._histograms = _phi_of_frames(record, run, stretch.frames)  # (K, F, 11)
-        self._bars = self._draw_phi(axes(_BOTTOM + tall + _BETWEEN))
-        self._line, self._dot = self._draw_engaged(axes(_BOTTOM))
-        self.artists = [*(bar for bars in self._bars for bar in bars), self._line, self._dot]
+        self._histograms = _phi_of_frames(record, run, stretch.frames) / WIDTHS  # (K, F, 11)
+        self._bars = self._draw_phi(axes(page_height - _TOP - tall))
+        self._course = self._draw_engaged(axes(_BOTTOM)) if several else ()
+        self.artists = [*(bar for bars in self._bars for bar in bars), *self._course]
 
     def show(self, number: int) -> None:
         """Move to a frame of the stretch."""
@@ -52,18 +54,20 @@ class Charts:
                 bar.set_y(bottom)
                 bar.set_height(height)
             base = base + heights
-        self._line.set_data(self._step[: number + 1], self._engaged[: number + 1])
-        self._dot.set_data([self._step[number]], [self._engaged[number]])
+        if self._course:
+            line, dot = self._course
+            line.set_data(self._step[: number + 1], self._engaged[: number + 1])
+            dot.set_data([self._step[number]], [self._engaged[number]])
 
     def _draw_phi(self, axes: Any) -> list[Any]:
         label_phi(axes)
         axes.set_title("Heading relative to target")
-        axes.set_ylabel("agents")
+        axes.set_ylabel(DENSITY)
         axes.set_ylim(0.0, max(1.0, 1.05 * float(self._histograms.sum(axis=1).max(initial=0.0))))
         return [
             axes.bar(
-                PHI_EDGES[:-1], 0.0 * PHI_EDGES[1:], np.diff(PHI_EDGES), align="edge", color=fleet_color(fleet),
-                edgecolor="white", linewidth=0.6,
+                PHI_EDGES[:-1], 0.0 * WIDTHS, WIDTHS, align="edge", color=fleet_color(fleet),
+                edgecolor=fleet_line(fleet), linewidth=0.5,
             )
             for fleet in range(self._histograms.shape[1])
         ]  # fmt: skip
@@ -72,6 +76,7 @@ class Charts:
         from matplotlib.ticker import FuncFormatter, MaxNLocator
 
         axes.set_title("Buoys on target")
+        axes.set_ylabel("agents")
         axes.set_xlabel("step")
         axes.set_xlim(self._step[0], max(self._step[-1], self._step[0] + 1))
         axes.set_ylim(0.0, max(1.0, float(np.nanmax(np.append(self._engaged, 0.0)))) * 1.08)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 _EDGE = 0.12  # [inch] around the page
 _LINE = 0.21  # of text
 _STRIP = 0.07  # height of the strip of time
+_KEY = 0.15  # of what its colors mean
 _CHARTS = 2.9  # least width of the charts, labels included
 _PANELS = 4.6  # least height of a page with charts
 _PAD = 0.004  # around the arena
@@ -147,13 +148,31 @@ class FilmPage:
         ]
 
     def _time_strip(self, width: float, height: float) -> Any:
-        """A strip along the bottom: vermilion while somebody was on target, pale while no target was there."""
+        """A strip along the bottom: vermilion while somebody was on target, pale without a target; and a key."""
         self._strip_colors = _STRIP_COLORS[np.where(self._on_target, 2, np.where(self._present, 1, 0))]
-        box = (_EDGE / width, _EDGE / height, 1.0 - 2 * _EDGE / width, _STRIP / height)
+        box = (_EDGE / width, (_EDGE + _KEY) / height, 1.0 - 2 * _EDGE / width, _STRIP / height)
         axes = self.figure.add_axes(box)
         axes.set_axis_off()
         axes.set_visible(self._share.size > 1)
+        if self._share.size > 1:
+            self._key(width, height)
         return axes.imshow(self._strip_colors[None], aspect="auto", interpolation="nearest")
+
+    def _key(self, width: float, height: float) -> None:
+        """What the colors of the strip mean, of those that are in it."""
+        from matplotlib.patches import Rectangle
+
+        x = _EDGE
+        kinds = [(True, 2), (bool((self._present & ~self._on_target).any()), 1), (bool((~self._present).any()), 0)]
+        for _, kind in (each for each in kinds if each[0]):
+            box = Rectangle((x / width, (_EDGE + 0.02) / height), 0.08 / width, 0.08 / height, linewidth=0,
+                            facecolor=tuple(_STRIP_COLORS[kind] / 255), transform=self.figure.transFigure)  # fmt: skip
+            self.figure.add_artist(box)
+            self.figure.text((x + 0.12) / width, (_EDGE + 0.025) / height, _KEYS[kind], fontsize=6.5, color=GRAY)
+            x += 0.3 + 0.055 * len(_KEYS[kind])
+
+
+_KEYS = ("no target there", "nobody on target", "somebody on target")
 
 
 def _rgb(color: str) -> npt.NDArray[np.uint8]:
@@ -184,4 +203,4 @@ def _above(record: Record, width: float, parts: Parts) -> float:
 
 
 def _below() -> float:
-    return _EDGE + _STRIP + 0.03
+    return _EDGE + _KEY + _STRIP + 0.03

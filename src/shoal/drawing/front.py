@@ -6,16 +6,18 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from shoal.drawing.style import FLEET_COLORS, GRAY, INK, TARGET, new_figure, style
-from shoal.drawing.words import shorten
+from shoal.drawing.foot import draw_foot, foot_height
+from shoal.drawing.legend import legend_above, legend_room
+from shoal.drawing.style import GRAY, INK, LINE_COLORS, Width, new_figure, style, width_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_WIDTH, _HEIGHT = 6.6, 4.2  # [in]
-_FRONT = FLEET_COLORS[0]
+_LEFT, _RIGHT, _TOP, _BELOW = 0.55, 0.15, 0.1, 0.42  # [in] beside, above and below the axes
+_FRONT, _OWN, _TRIED = LINE_COLORS[0], LINE_COLORS[2], "#8f8f8f"
 _THOUSANDS = 5000.0  # costs from which their labels are whole, with commas
+_SIGNS = ("tried", "dominated for sure", "behind, by its mean", "on the front", "own fleet")
 _LABELED = 7  # points of the front that are named
 _LEFT = 0.1  # of the width: where there is room for a name left of its point
 _APART = 0.055  # of the height: names are not closer
@@ -38,7 +40,11 @@ class Place:
 
 
 def front_figure(
-    places: Sequence[Place], tried: Sequence[tuple[float, float]], labels: tuple[str, str], fleets: str
+    places: Sequence[Place],
+    tried: Sequence[tuple[float, float]],
+    labels: tuple[str, str],
+    fleets: str,
+    width: Width = "double",
 ) -> "Figure":
     """Return a figure of the front.
 
@@ -48,13 +54,20 @@ def front_figure(
     tried : both metrics of every trial of the search
     labels : of both metrics
     fleets : what the names of places are made of, such as "fast + slow"
+    width : of one column of a journal, or of two
     """
+    page = width_of(width)
+    wide = page - _LEFT - _RIGHT
+    tall = 0.8 * wide if width == "single" else 0.5 * wide
+    note = f"whiskers: 95 % interval over runs on fresh seeds; numbers: {fleets}"
+    bottom = foot_height(note, page) + _BELOW
+    height = bottom + tall + legend_room(_SIGNS, wide) + _TOP
     with style():
         from matplotlib.ticker import FuncFormatter
 
-        figure = new_figure(_WIDTH, _HEIGHT)
-        axes = figure.add_axes((0.09, 0.16, 0.88, 0.73))
-        axes.plot(*np.array(tried, float).reshape(-1, 2).T, ".", color="#c4c4c4", markersize=4, markeredgewidth=0,
+        figure = new_figure(page, height)
+        axes = figure.add_axes((_LEFT / page, bottom / height, wide / page, tall / height))
+        axes.plot(*np.array(tried, float).reshape(-1, 2).T, ".", color=_TRIED, markersize=4, markeredgewidth=0,
                   label="tried", gid="tried", zorder=1.5)  # fmt: skip
         kinds = {"beaten": ("x", GRAY, "dominated for sure"), "behind": ("o", GRAY, "behind, by its mean")}
         for kind, (marker, color, label) in kinds.items():
@@ -63,17 +76,16 @@ def front_figure(
         axes.step([each.less for each in best], [each.more for each in best], where="post", color=_FRONT,
                   linewidth=1.0, alpha=0.6)  # fmt: skip
         _draw(axes, [each for each in best if not each.present], "o", _FRONT, "on the front")
-        _draw(axes, [each for each in places if each.present], "D", TARGET, "own fleet")
+        _draw(axes, [each for each in places if each.present], "D", _OWN, "own fleet")
         axes.set_xlabel(labels[0])
-        axes.set_title(labels[1], pad=22)
+        axes.set_ylabel(labels[1])
         axes.set_xlim(left=0.0)
         if axes.get_xlim()[1] >= _THOUSANDS:
             axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
         axes.grid(visible=True)
         _name(axes, best)
-        axes.legend(loc="lower left", bbox_to_anchor=(-0.01, 0.995), ncols=5, borderaxespad=0.1)
-        note = f"whiskers: 95 % interval over runs on fresh seeds; numbers: {shorten(fleets, 60)}"
-        figure.text(0.97, 0.015, note, ha="right", va="bottom", fontsize=7, color=GRAY)
+        legend_above(axes)
+        draw_foot(figure, note)
     return figure
 
 

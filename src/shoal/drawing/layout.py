@@ -1,14 +1,18 @@
-"""Where the parts of the summary page go, in inches: the shape of the arena decides."""
+"""Where the parts of the summary page go, in inches: its width and the shape of the arena decide."""
 
 from typing import NamedTuple
 
-PAGE = 10.0  # width
-LEFT, RIGHT = 0.7, 0.4  # room for a y label; page margin
-TITLE = 0.33  # above an axes
-BELOW_CURVES, BELOW_HISTOGRAM, BELOW_SNAPSHOT = 0.55, 0.85, 0.6  # room for ticks and x label
-GUTTER = 0.85  # between columns, y label of the right one included
-SNAPSHOT = 4.7  # height
-NARROWEST = 3.0  # column of a snapshot
+from shoal.drawing.style import WIDTHS
+
+DOUBLE = WIDTHS["double"]
+LEFT, RIGHT = 0.55, 0.28  # room for a y label; page margin
+TITLE = 0.3  # above an axes
+BELOW_CURVES, BELOW_HISTOGRAM, BELOW_SNAPSHOT = 0.42, 0.7, 0.48  # room for ticks and x label
+GUTTER = 0.68  # between columns, y label of the right one included
+SNAPSHOT = 3.3  # height beside the charts
+TALLEST = 5.0  # height of a snapshot on a narrow page
+NARROWEST = 2.2  # column of a snapshot beside the charts
+CHART = 1.55  # height of a chart below the snapshot
 WIDE = 1.5  # width / height from which the snapshot takes the whole width
 
 Box = tuple[float, float, float, float]  # left, bottom, width, height
@@ -29,16 +33,15 @@ class Boxes(NamedTuple):
         return left / self.width, bottom / self.height, width / self.width, height / self.height
 
 
-def snapshot_size(aspect: float) -> tuple[float, float]:
-    """Width and height [inch] of a snapshot whose arena is `aspect` times as wide as high."""
-    if aspect > WIDE:
-        width = min(PAGE - LEFT - RIGHT, SNAPSHOT * aspect)
-    else:
-        width = min(SNAPSHOT * aspect, 5.2)
+def snapshot_size(aspect: float, page: float = DOUBLE) -> tuple[float, float]:
+    """Width and height [inch] of a snapshot whose arena is `aspect` times as wide as high, on a page of a width."""
+    room = page - LEFT - RIGHT
+    highest = TALLEST if page < DOUBLE or aspect > WIDE else SNAPSHOT
+    width = min(room, highest * aspect)
     return width, width / aspect
 
 
-def lay_out(aspect: float | None, header: float, footer: float, legend: float = 0.0) -> Boxes:
+def lay_out(aspect: float | None, header: float, footer: float, legend: float = 0.0, page: float = DOUBLE) -> Boxes:
     """Return the boxes of a page.
 
     Parameters
@@ -46,36 +49,46 @@ def lay_out(aspect: float | None, header: float, footer: float, legend: float = 
     aspect : width / height of the arena, None for a page without a snapshot
     header, footer : room for text above and below [inch]
     legend : room for the legend above the snapshot [inch]
+    page : its width [inch]
     """
-    if aspect is None:
-        return _charts_in_a_row(header, footer, None)
-    if aspect > WIDE:
-        width, height = snapshot_size(aspect)
-        return _charts_in_a_row(header + legend + TITLE + height + BELOW_SNAPSHOT, footer, (width, height))
+    size = None if aspect is None else snapshot_size(aspect, page)
+    above = header + (legend + TITLE + size[1] + BELOW_SNAPSHOT if size else 0.0)
+    if page < DOUBLE:
+        return _one_below_the_other(page, above, footer, size)
+    if aspect is None or aspect > WIDE:
+        return _charts_in_a_row(page, above, footer, size)
     return _charts_in_a_column(aspect, header, footer, legend)
 
 
-def _charts_in_a_row(above: float, footer: float, snapshot: tuple[float, float] | None) -> Boxes:
+def _one_below_the_other(page: float, above: float, footer: float, size: tuple[float, float] | None) -> Boxes:
+    """Snapshot, histogram, curves."""
+    wide = page - LEFT - RIGHT
+    curves = footer + BELOW_CURVES
+    histogram = curves + CHART + TITLE + BELOW_HISTOGRAM
+    top = histogram + CHART + TITLE
+    box = None if size is None else (LEFT + (wide - size[0]) / 2, top + BELOW_SNAPSHOT, *size)
+    return Boxes(page, top + above, box, (LEFT, histogram, wide, CHART), (LEFT, curves, wide, CHART))
+
+
+def _charts_in_a_row(page: float, above: float, footer: float, size: tuple[float, float] | None) -> Boxes:
     """Histogram left, curves right, below everything else."""
-    width, height = (PAGE - LEFT - RIGHT - GUTTER) / 2, 2.1
+    width = (page - LEFT - RIGHT - GUTTER) / 2
     bottom = footer + BELOW_HISTOGRAM
-    page = bottom + height + TITLE + above
-    top = bottom + height + TITLE + BELOW_SNAPSHOT
-    box = None if snapshot is None else (LEFT, top, *snapshot)
-    return Boxes(PAGE, page, box, (LEFT, bottom, width, height), (LEFT + width + GUTTER, bottom, width, height))
+    top = bottom + CHART + TITLE
+    box = None if size is None else (LEFT, top + BELOW_SNAPSHOT, *size)
+    return Boxes(page, top + above, box, (LEFT, bottom, width, CHART), (LEFT + width + GUTTER, bottom, width, CHART))
 
 
 def _charts_in_a_column(aspect: float, header: float, footer: float, legend: float) -> Boxes:
     """Snapshot left; right of it the histogram over the curves, in line with its top and bottom."""
     width, height = snapshot_size(aspect)
-    column = max(width, NARROWEST)
-    left = LEFT + column + GUTTER
+    left = LEFT + max(width, NARROWEST) + GUTTER
     page = header + legend + TITLE + SNAPSHOT + BELOW_SNAPSHOT + footer
     top, bottom = page - header - TITLE, footer + BELOW_SNAPSHOT
     chart = (top - bottom - BELOW_HISTOGRAM - TITLE) / 2
-    wide = PAGE - RIGHT - left
+    wide = DOUBLE - RIGHT - left
     return Boxes(
-        PAGE,
+        DOUBLE,
         page,
         (LEFT, page - header - legend - TITLE - height, width, height),
         (left, top - chart, wide, chart),

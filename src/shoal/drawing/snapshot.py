@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from shoal.core.errors import RecordError
 from shoal.drawing.arena_drawing import ArenaDrawing, Parts
 from shoal.drawing.legend import draw_legend
+from shoal.drawing.titles import entitle
 from shoal.drawing.words import count, plural, time_text
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
@@ -12,6 +13,7 @@ from shoal.record.trajectory import Trajectory
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+PLAIN = Parts()
 POINTS = 72.0  # to the inch
 
 
@@ -20,10 +22,9 @@ def draw_snapshot(
     record: Record,
     run: int = 0,
     frame: int = -1,
-    links: bool = False,
     trail: int | None = None,
-    halos: bool = False,
-    sensors: bool = False,
+    parts: Parts = PLAIN,
+    letter: str = "",
 ) -> None:
     """Draw buoys and targets of one frame; buoys that report a target have a dark rim, faster ones are bigger.
 
@@ -31,10 +32,10 @@ def draw_snapshot(
     ----------
     run : number of a run that kept a trajectory
     frame : index into its frames, from the end if negative
-    links : draw a line between buoys of which one heard the other in this step
     trail : steps of the targets' trails (the buoys' are a third of it), 0 for none; as far as consecutive steps were
         kept. Default: what the fastest buoy needs for 8 arena units, each a twentieth of the longer side
-    halos, sensors : draw discs of radius a_R, circles as wide as sensors reach
+    parts : what is drawn besides buoys and targets; trails by `trail`
+    letter : of a panel, before the title
 
     Raises
     ------
@@ -42,11 +43,11 @@ def draw_snapshot(
     """
     frames = frames_of(record, run)
     last = _index(frames, frame)
-    drawing = ArenaDrawing(axes, record, run, Parts(links, trail != 0, halos, sensors), trail)
+    drawing = ArenaDrawing(axes, record, run, parts._replace(trails=trail != 0), trail)
     drawing.show(last)
     drawing.scale()
-    height = draw_legend(axes, record, halos=halos, sensors=sensors)
-    axes.set_title(_moment(record, frames, run, last), pad=7.0 + POINTS * height)
+    height = draw_legend(axes, record, halos=parts.halos, sensors=parts.sensors)
+    entitle(axes, letter + _moment(record, frames, run, last), pad=5.0 + POINTS * height)
 
 
 def frames_of(record: Record, run: int) -> Trajectory:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from shoal.drawing.style import INK, TARGET, fleet_color
+from shoal.drawing.style import INK, TARGET, fleet_line
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
 
@@ -53,7 +53,7 @@ class AgentTrails:
         self._ends = np.cumsum(record.facts.counts)
         self._steps, self._stride = steps, stride
         self.artists = [
-            LineCollection([], colors=fleet_color(fleet), linewidths=0.8, alpha=0.4, zorder=3)
+            LineCollection([], colors=fleet_line(fleet), linewidths=0.8, alpha=0.5, zorder=3)
             for fleet in range(len(self._ends))
         ]
         for lines in self.artists:

@@ -12,8 +12,9 @@ from shoal.drawing.dots import MARKED, Dots
 from shoal.drawing.legend import draw_map_legend
 from shoal.drawing.snapshot import POINTS, frames_of
 from shoal.drawing.stretch import stretch_of
-from shoal.drawing.style import TARGET, fleet_color
+from shoal.drawing.style import TARGET, fleet_line
 from shoal.drawing.targets import TargetMarks
+from shoal.drawing.titles import entitle
 from shoal.drawing.trails import Points, agent_paths, target_points, unwrapped, widen
 from shoal.drawing.words import count, time_text
 from shoal.record.record import Record
@@ -64,8 +65,8 @@ def draw_trajectory_map(
     begin = 0
     for fleet, number in enumerate(() if dotted else facts.counts):
         mine = paths[begin : begin + number]
-        _draw_paths(axes, mine, fleet_color(fleet), 0.9, f"paths-{fleet}", 3)
-        _draw_starts(axes, mine, fleet_color(fleet), 7.0, f"starts-{fleet}")
+        _draw_paths(axes, mine, fleet_line(fleet), 0.9, f"paths-{fleet}", 3)
+        _draw_starts(axes, mine, fleet_line(fleet), 7.0, f"starts-{fleet}")
         begin += number
     if dotted:
         Dots(axes, record).show(frames, -1)
@@ -79,9 +80,9 @@ def draw_trajectory_map(
         _draw_starts(axes, path[None], TARGET, 26.0, f"target-start-{number}")
         TargetMarks(axes, record, number).show(frames, -1)
     AgentMarks(axes, record, reporting=dotted).show(frames, -1)
-    draw_scale_bar(axes, paths.reshape(-1, 2))
+    draw_scale_bar(axes, area, paths.reshape(-1, 2))
     height = draw_map_legend(axes, record)
-    axes.set_title(_words(record, frames, run), pad=7.0 + POINTS * height)
+    entitle(axes, _words(record, frames, run), pad=5.0 + POINTS * height)
 
 
 def _draw_paths(axes: "Axes", paths: Points, color: str, width: float, gid: str, zorder: float) -> None:

@@ -1,10 +1,10 @@
 """What a figure says in words: counts, estimates, and the lines about a record."""
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
 from shoal.core.text import plain
+from shoal.record import words
 from shoal.record.record import Record
 from shoal.record.statistics import Estimate
 from shoal.record.words import steered_text
@@ -23,14 +23,17 @@ def count(number: int) -> str:
     return f"{number:,}".replace(",", _THIN)
 
 
-def number(value: float, decimals: int) -> str:
-    """A number with a true minus sign, or "unknown"."""
-    return f"{value:.{decimals}f}".replace("-", "\u2212") if math.isfinite(value) else "unknown"
-
-
 def field_words(field: str) -> str:
     """What an axis calls a varied field of a scenario: target speed [m/s]."""
     return _FIELDS.get(field) or field.replace("_", " ")
+
+
+def field_value(field: str, value: Any) -> str:
+    """A varied field and one of its values, for a legend: target speed 3 m/s, k = 20, 15 fast agents."""
+    if field == "fast":
+        return f"{value} fast agents"
+    name, _, unit = field_words(field).partition(" [")
+    return f"k = {value}" if field == "neighbors" else f"{name} {value}{f' {unit[:-1]}' if unit else ''}"
 
 
 _FIELDS = {"target_speed": "target speed [m/s]", "neighbors": "neighbors, k", "fast": "fast agents"}
@@ -48,12 +51,8 @@ def legend_text(text: str) -> str:
 
 
 def estimate_text(value: Estimate) -> str:
-    """Mean [low, high], to two digits of the interval's half-width."""
-    if value.ci95 is None:
-        return number(value.mean, _decimals(abs(value.mean) / 10))
-    low, high = value.ci95
-    decimals = _decimals((high - low) / 2)
-    return f"{number(value.mean, decimals)} [{number(low, decimals)}, {number(high, decimals)}]"
+    """Mean [low, high], as everywhere, with thousands set apart as figures do."""
+    return words.estimate_text(value, _THIN)
 
 
 def length_text(meters: float) -> str:
@@ -99,8 +98,8 @@ def metric_phrases(record: Record) -> list[str]:
     engaged = record.estimate("engaged")
     return [
         f"{record.metrics['time_on_target'].words} {estimate_text(record.estimate('time_on_target'))}",
-        f"{record.metrics['xi'].words.replace('Xi', 'Ξ')} {estimate_text(record.estimate('xi'))}",
-        f"engaged {estimate_text(engaged)}" + (" agents" if math.isfinite(engaged.mean) else ""),
+        f"{record.metrics['xi'].words} {estimate_text(record.estimate('xi'))}",
+        f"{record.metrics['engaged'].words} {estimate_text(engaged)}",
     ]
 
 
@@ -131,8 +130,3 @@ def _speed_text(target: Any) -> str:
         return str(target.kind)
     kind = "" if target.kind == "waypoint" else f"{target.kind} "
     return f"{kind}{speed:.3g} m/s"
-
-
-def _decimals(half: float) -> int:
-    """Decimals that show two digits of `half`."""
-    return min(max(1 - math.floor(math.log10(half)), 0), 4) if half > 0 and math.isfinite(half) else 3

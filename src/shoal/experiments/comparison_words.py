@@ -4,7 +4,8 @@ import math
 
 from shoal.experiments.comparison import Standing
 from shoal.experiments.paired import SIGNIFICANT
-from shoal.record.words import spread_text
+from shoal.record import words
+from shoal.record.words import estimate_text
 
 REFERENCES = (
     "References that know the target have no rank: no buoy could follow them. They are not an upper bound; no "
@@ -28,17 +29,15 @@ def value_text(each: Standing) -> str:
     if runs == 0:
         return f"none of {each.missing} runs"
     some = f" ({runs} of {runs + each.missing} runs)" if each.missing else ""
-    return number(each.value.mean) + _interval(each.value.mean, each.value.ci95) + some
+    return estimate_text(each.value) + some
 
 
 def difference_text(each: Standing) -> str:
-    """Signed difference and half the width of its interval."""
+    """Signed difference and its interval."""
     known = each.difference
     if known is None or known.pairs == 0:
         return ""
-    size = number(abs(known.mean))
-    sign = "" if float(size) == 0 else "+" if known.mean > 0 else "−"
-    return sign + size + _half(known.ci95)
+    return words.difference_text(known.mean, *(known.ci95 or (None, None)))
 
 
 def p_text(p: float | None) -> str:
@@ -51,7 +50,7 @@ def p_text(p: float | None) -> str:
 def share_text(each: Standing, decimals: int = 3) -> str:
     """Mean, and the sign of a difference that was shown."""
     sign = {"better": " +", "worse": " −"}.get(each.verdict, "")
-    return "none" if math.isnan(each.value.mean) else f"{each.value.mean:.{decimals}f}{sign}"
+    return words.UNKNOWN if math.isnan(each.value.mean) else f"{each.value.mean:.{decimals}f}{sign}"
 
 
 def family_text(family: str) -> str:
@@ -61,20 +60,3 @@ def family_text(family: str) -> str:
         f"Adjusted p is Holm's, for {family} together: verdicts need it below {SIGNIFICANT:g}, so that the chance of "
         f"any false one among them is at most {100 * SIGNIFICANT:g} %."
     )
-
-
-def number(value: float) -> str:
-    """Three decimals, one for large numbers."""
-    return f"{value:.{_decimals(value)}f}"
-
-
-def _decimals(value: float) -> int:
-    return 3 if abs(value) < 100 else 1
-
-
-def _interval(mean: float, interval: tuple[float, float] | None) -> str:
-    return spread_text(mean, *interval, _decimals(mean)) if interval else ""
-
-
-def _half(interval: tuple[float, float] | None) -> str:
-    return f" ± {number((interval[1] - interval[0]) / 2)}" if interval else ""

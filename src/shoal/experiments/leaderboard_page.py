@@ -112,7 +112,7 @@ def _made_by(board: Leaderboard, named: Sequence[str]) -> str:
 
 def _overview(board: Leaderboard) -> str:
     conditions = board.shares.conditions
-    head = ["rank", "strategy", "score ± 95 %", "minus lattice", "adjusted p", *(each.name for each in conditions)]
+    head = ["rank", "strategy", "score [95 %]", "minus lattice", "adjusted p", *(each.name for each in conditions)]
     rows = [
         [*_cells(each), *(share_text(condition.of(each.strategy)) for condition in conditions)]
         for each in board.overall.standings
@@ -122,7 +122,7 @@ def _overview(board: Leaderboard) -> str:
 
 def _section(condition: SuiteCondition, found: Condition) -> str:
     out_of = f" / {condition.out_of:g}" if condition.out_of != 1 else ""
-    head = ["rank", "strategy", "share ± 95 %", "minus lattice", "adjusted p", "verdict"]
+    head = ["rank", "strategy", "share [95 %]", "minus lattice", "adjusted p", "verdict"]
     rows = [[*_cells(each), each.verdict] for each in found.standings]
     says = condition.says[0].upper() + condition.says[1:]
     return f"### {condition.name}\n\n{says}. Share: `{condition.metric}`{out_of}.\n\n{_markdown(head, rows)}"

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.metrics.summary import METRICS, Bounds, bounds_of
+from shoal.record.names import label_of
 
 
 @dataclass(frozen=True)
@@ -20,9 +21,8 @@ class Objective:
 
     @property
     def words(self) -> str:
-        """The metric in tables and figures, its unit behind it if that says anything."""
-        metric = METRICS[self.metric]
-        return metric.words if metric.unit in ("1", "currency") else f"{metric.words} [{metric.unit}]"
+        """The metric in tables and figures, its unit behind it."""
+        return label_of(self.metric)
 
     @property
     def bounds(self) -> Bounds:

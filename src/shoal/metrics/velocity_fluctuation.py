@@ -82,14 +82,14 @@ MEASUREMENT = Measurement(
             "1",
             "velocity fluctuation: mean of |v_i - mean v| over steps and agents / mean top speed (Eqs. 5-7)",
             xi,
-            label="velocity fluctuation Xi",
+            label="velocity fluctuation Ξ",
         ),
         Metric(
             "xi_raw",
             "m/s",
             "velocity fluctuation, not normalized",
             lambda t, f: share(t.fluctuation, t.steps) / mean_agents(t),
-            label="Xi, not normalized",
+            label="Ξ, not normalized",
         ),
         Metric(
             "response",

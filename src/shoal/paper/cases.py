@@ -17,6 +17,7 @@ from shoal.experiments.paired import SIGNIFICANT, holm
 from shoal.paper.curves import Floats, Interval, degrees_of_freedom, intervals
 from shoal.paper.results import Verdict
 from shoal.record.statistics import t_quantile, two_sided
+from shoal.record.words import told
 
 Truth = bool | None  # None: open
 Test = Callable[[Interval], Truth]
@@ -117,15 +118,14 @@ def worst(cases: Sequence[Case], aim: float | None = None) -> Case:
     return min(known, key=lambda case: case.number.value if aim is None else -abs(case.number.value - aim))
 
 
-def case_text(case: Case, unit: str = "", digits: int = 1) -> str:
+def case_text(case: Case, unit: str = "") -> str:
     """ "20.3 [19.8, 20.9] (mixed, 3 m/s)"."""
-    return f"{told_number(case.number, digits)}{unit} ({case.name})"
+    return f"{told_number(case.number)}{unit} ({case.name})"
 
 
-def told_number(number: Interval, digits: int = 1) -> str:
+def told_number(number: Interval) -> str:
     """ "20.3 [19.8, 20.9]"."""
-    bounds = f" [{number.low:.{digits}f}, {number.high:.{digits}f}]" if math.isfinite(number.low) else ""
-    return f"{number.value:.{digits}f}{bounds}"
+    return told(*number)
 
 
 def _chance(number: Interval, test: Test, degrees: float) -> float:

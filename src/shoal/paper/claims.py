@@ -88,7 +88,7 @@ def c1(rows: Sequence[Row]) -> Claim:
     for place, shares in _shares(rows, "time_on_target").items():
         halves = {"first": shares.between(0, 25), "second": shares.between(25, AGENTS)}
         rises |= {f"{each} half of the shares, {place}": 25 * slopes(half) for each, half in halves.items()}
-    return _claim("C1", percent(rising(rises)), "the least rise is {}", "tot_share", "% points", digits=2)
+    return _claim("C1", percent(rising(rises)), "the least rise is {}", "tot_share", "% points")
 
 
 def c2(rows: Sequence[Row]) -> Claim:
@@ -146,7 +146,7 @@ def c7(rows: Sequence[Row]) -> Claim:
         return rising({place: AGENTS * slopes(each) for place, each in shares.items()})
 
     note = f"; not normalized [m/s], {count(cases_of('xi_raw'))}"
-    return _claim("C7", cases_of("xi"), "the least rise is {}", "xi_share", "1", digits=3, note=note)
+    return _claim("C7", cases_of("xi"), "the least rise is {}", "xi_share", "1", note=note)
 
 
 def c8(rows: Sequence[Row]) -> Claim:
@@ -161,7 +161,7 @@ def c8(rows: Sequence[Row]) -> Claim:
             for k, more in pairwise(known):
                 rises[f"k {k} to {more}, {swarm}, {speed:g} m/s"] = heading.at(more) - heading.at(k)
     text = "agents that head for the target change at least by {}"
-    return _claim("C8", rising(rises), text, "phi_histograms", "agents", digits=2)
+    return _claim("C8", rising(rises), text, "phi_histograms", "agents")
 
 
 def c9(rows: Sequence[Row]) -> Claim:
@@ -179,7 +179,7 @@ def c9(rows: Sequence[Row]) -> Claim:
 
     note = f"; by the whole bin at phi = 0, {count(cases_of(heading_nowhere, 1.0))}"
     text = "the least difference is {}"
-    return _claim("C9", cases_of("stationary", AGENTS), text, "phi_histograms", "agents", digits=2, note=note)
+    return _claim("C9", cases_of("stationary", AGENTS), text, "phi_histograms", "agents", note=note)
 
 
 def c10(rows: Sequence[Row]) -> Claim:
@@ -191,7 +191,7 @@ def c10(rows: Sequence[Row]) -> Claim:
 
     note = f"; by the whole bin at phi = 0, {count(cases_of(heading_nowhere, 1.0))}"
     text = "the mixed swarm has {} more"
-    return _claim("C10", cases_of("stationary", AGENTS), text, "phi_histograms", "agents", digits=2, note=note)
+    return _claim("C10", cases_of("stationary", AGENTS), text, "phi_histograms", "agents", note=note)
 
 
 def c11(rows: Sequence[Row], placement: Sequence[Row]) -> Claim:
@@ -204,7 +204,7 @@ def c11(rows: Sequence[Row], placement: Sequence[Row]) -> Claim:
             change = moved.minus(uniform)
             changes |= {f"{start}, {_place(k, speed)}": change.at(k) for k in change.x}
     cases = judge(changes, lambda number: within(number, -SAME, SAME))
-    return _claim("C11", percent(cases), "the largest change is {}", "tot_k", "% points", aim=0.0, digits=2)
+    return _claim("C11", percent(cases), "the largest change is {}", "tot_k", "% points", aim=0.0)
 
 
 def c12(episodes: Sequence[Episode]) -> Claim:
@@ -220,7 +220,7 @@ def c12(episodes: Sequence[Episode]) -> Claim:
     verdict = verdict_of(cases) if len(cases) >= 3 else "undecided"
     measured = (
         f"{len(lasted)} of {len(episodes)} clusters dispersed within the run; they lasted "
-        f"{told_number(number, 0)} steps (median), at most {longest}"
+        f"{told_number(number)} steps (median), at most {longest}"
     )
     return Claim("C12", STATEMENTS["C12"], measured, *number, "steps", verdict, "clustering", *count(cases))
 
@@ -241,12 +241,12 @@ def c13(rows: Sequence[Row], steps: int) -> Claim:
         deviations = np.array([values.std(ddof=1) / values.mean() / _median_spread(values.size) for values in found])
         deviation = bootstrap(deviations, np.median)
         if name not in ("time on target", "Xi"):
-            notes.append(f"{name} {told_number(deviation.times(100), 2)} % (deviation; not in the claim)")
+            notes.append(f"{name} {told_number(deviation.times(100))} % (deviation; not in the claim)")
             continue
         for kind, number in (("deviation", deviation), ("error", deviation.times(SEEDS**-0.5))):
             case = judged(f"{name}, {kind}", number, _spread if steps >= FULL_STEPS else _untold)
             cases += percent([case])
-    listed = "; ".join(case_text(case, " %", 2) for case in cases)
+    listed = "; ".join(case_text(case, " %") for case in cases)
     measured = (
         f"spread over runs of {steps:,} steps / mean, in the median cell, as standard deviation and as standard error "
         f"of {SEEDS} runs: {listed}; {'; '.join(notes)}"
@@ -297,13 +297,12 @@ def _claim(
     unit: str,
     *,
     aim: float | None = None,
-    digits: int = 1,
     note: str = "",
 ) -> Claim:
     """A claim from its cases; `text` has a place for the worst of them, or for all where they are few."""
     key = worst(cases, aim)
     shown = cases if 0 < len(cases) <= FEW_CASES else [key]
-    listed = "; ".join(case_text(case, digits=digits) for case in shown)
+    listed = "; ".join(case_text(case) for case in shown)
     rest = "" if len(shown) == len(cases) else f"; {count(cases)}"
     measured = f"{text.format(listed)}{rest}{note}"
     return Claim(id_, STATEMENTS[id_], measured, *key.number, unit, verdict_of(cases), figure, *count(cases))

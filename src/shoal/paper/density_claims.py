@@ -117,6 +117,5 @@ def _transition(rows: Sequence[Row]) -> float:
 def _claim(id_: str, gains: Mapping[str, Floats], text: str, factor: float, unit: str) -> Claim:
     cases = [case._replace(number=case.number.times(factor)) for case in rising(gains)]
     least = worst(cases)
-    digits = 1 if factor > 1 else 3
-    measured = f"{text.format(case_text(least, f' {unit}' if unit else '', digits))}; {count(cases)}"
+    measured = f"{text.format(case_text(least, f' {unit}' if unit else ''))}; {count(cases)}"
     return Claim(id_, STATEMENTS[id_], measured, *least.number, unit, verdict_of(cases), "density", *count(cases))

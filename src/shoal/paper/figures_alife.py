@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from shoal.drawing.style import FLEET_COLORS, GRAY, new_figure, style
+from shoal.drawing.style import GRAY, lettered, line_color, new_figure, style
 from shoal.experiments.rows import Row
 from shoal.paper.alife_claims import BASE_FAST
 from shoal.paper.figures_series import (
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _MARKERS = ("o", "s", "^", "D")
-_COLORS = (FLEET_COLORS[0], FLEET_COLORS[2], FLEET_COLORS[3], FLEET_COLORS[1])
+_COLORS = tuple(map(line_color, range(4)))
 _TITLE = "Time on target of a target that flees"
 
 Draw = Callable[["Axes", float], list[Row]]
@@ -117,11 +117,11 @@ def _figure(name: str, title: str, draw: Draw, x: str, caption: str) -> Figure |
         figure = new_figure(DOUBLE, 3.0)
         figure.set_layout_engine("constrained", h_pad=0.05, w_pad=0.06)
         panels: Any = figure.subplots(1, len(FLEES_AT), squeeze=False)[0]
-        for axes, speed in zip(panels, FLEES_AT, strict=True):
+        for number, (axes, speed) in enumerate(zip(panels, FLEES_AT, strict=True)):
             shown = draw(axes, speed)
             if shown:
                 show_means(axes, shown)
-            axes.set_title(speed_text(speed))
+            axes.set_title(lettered(number, speed_text(speed)))
             axes.set_xlabel(x)
             axes.grid(visible=True)
             data += shown

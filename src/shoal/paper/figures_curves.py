@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shoal.drawing.legend import headroom
-from shoal.drawing.style import FLEET_COLORS, INK, new_figure, style
+from shoal.drawing.style import INK, lettered, line_color, new_figure, style
 from shoal.experiments.rows import Row
 from shoal.paper.figures_peaks import PeakMark, peak_of
 from shoal.paper.figures_series import (
     ALL_SLOW,
     DOUBLE,
+    SINGLE,
     Quantity,
     curve,
     levels,
@@ -31,7 +32,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _MARKERS = ("o", "s", "^", "D", "v", "P")
-_SWARM_COLORS = (FLEET_COLORS[0], FLEET_COLORS[2], FLEET_COLORS[3])
+_SWARM_COLORS = tuple(map(line_color, range(3)))
+_LIGHTEST = 0.55  # of the scale of colors: lighter ones are too pale for a line
 _MOST_K = 6  # curves in one panel
 _PAPER_K = 20  # of the paper's figures against the share
 
@@ -50,22 +52,23 @@ def share_figure(rows: Sequence[Row], name: str, title: str, quantities: Sequenc
     data: list[Row] = []
     with style():
         colors = _shades(len(ks))
-        figure = new_figure(DOUBLE if len(speeds) > 1 else 0.62 * DOUBLE, 0.75 + 2.05 * len(quantities))
+        figure = new_figure(DOUBLE if len(speeds) > 1 else SINGLE, 0.75 + 2.05 * len(quantities))
         figure.set_layout_engine("constrained", h_pad=0.06, w_pad=0.06)
         panels = figure.subplots(len(quantities), len(speeds), squeeze=False, sharex=True, sharey="row")
         for (i, quantity), (j, speed) in _pairs(quantities, speeds):
             axes = panels[i, j]
             for k, color, marker in zip(ks, colors, _MARKERS, strict=False):
                 points = series(where(rows, neighbors=k, target_speed=speed), "fast", quantity)
-                curve(axes, points, f"k = {k}", color, marker, 100 / AGENTS, bold=k == _PAPER_K)
+                label = f"k = {k} (the paper's)" if k == _PAPER_K and len(ks) > 1 else f"k = {k}"
+                curve(axes, points, label, color, marker, 100 / AGENTS, bold=k == _PAPER_K)
                 data += points.rows("fast", quantity, neighbors=k, target_speed=speed)
-            _label_panel(axes, i, j, quantity, speed)
+            _label_panel(axes, i * len(speeds) + j, quantity if j == 0 else None, speed)
             axes.set_xticks(range(0, 101, 20))
             show_means(panels[i, 0], [row for row in data if row["quantity"] == quantity.name])
         for axes in panels[-1]:
             axes.set_xlabel("share of fast buoys [%]")
         handles, labels = panels[0, 0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside upper left", ncols=len(ks), borderaxespad=0.2)
+        figure.legend(handles, labels, loc="outside upper left", ncols=min(len(ks), 3 * len(speeds)), borderaxespad=0.2)
     names = ", and below ".join(_capital(quantity.name) for quantity in quantities)
     caption = (
         f"{names}, of a swarm of {AGENTS} buoys against its share of fast ones, at "
@@ -88,32 +91,31 @@ def k_figure(rows: Sequence[Row], name: str, title: str, quantity: Quantity, sym
         return None
     data: list[Row] = []
     with style():
-        figure = new_figure(DOUBLE if len(speeds) > 1 else 0.62 * DOUBLE, 3.35)
+        figure = new_figure(DOUBLE if len(speeds) > 1 else SINGLE, 3.35)
         figure.set_layout_engine("constrained", h_pad=0.06, w_pad=0.06)
         panels = figure.subplots(1, len(speeds), squeeze=False, sharey=True)[0]
-        peaks: list[tuple[Any, str, str, PeakMark]] = []
+        peaks: list[str] = []
         for j, speed in enumerate(speeds):
             for fast, color, marker in zip(swarms, _SWARM_COLORS, _MARKERS, strict=False):
                 cell = where(rows, fast=fast, target_speed=speed)
                 points = series(cell, "neighbors", quantity)
                 peak = peak_of(cell, quantity)
-                label = swarm_text(fast) + (f": {symbol} {peak.text}" if peak else "")
-                curve(panels[j], points, label, color, marker)
+                curve(panels[j], points, swarm_text(fast), color, marker)
                 data += points.rows("neighbors", quantity, fast=fast, target_speed=speed)
                 if peak:
-                    peaks.append((panels[j], color, marker, peak))
+                    _draw_peak(panels[j], color, marker, peak)
+                    peaks.append(f"{symbol} {peak.text} ({swarm_text(fast)}, {speed:g} m/s)")
                     data += peak.rows(quantity, fast=fast, target_speed=speed)
-            _label_panel(panels[j], 0, j, quantity, speed)
+            _label_panel(panels[j], j, quantity if j == 0 else None, speed)
             panels[j].set_xlabel("number of neighbors k")
             panels[j].set_xticks([2, 10, 20, 30, 40, 49])
         show_means(panels[0], [row for row in data if row["quantity"] == quantity.name])
-        _draw_peaks(peaks)
         figure.draw_without_rendering()  # panels take their places
         _legends_above(panels)
     caption = (
         f"{_capital(quantity.name)} of the {_several('swarm', [swarm_text(fast) for fast in swarms])} against the "
-        f"number of neighbors k that a buoy listens to, for {_speeds(speeds)}. Dotted lines lead from each peak to "
-        f"its k and the 95 % interval of that, at the bottom. {seeds_text(rows)}"
+        f"number of neighbors k that a buoy listens to, for {_speeds(speeds)}. {_told_peaks(peaks)}"
+        f"{seeds_text(rows)}"
     )
     return Figure(name, title, caption, figure, data)
 
@@ -130,26 +132,18 @@ def _swarms_with_ks(rows: Sequence[Row]) -> list[int]:
     return [fast for fast in (MIXED, ALL_SLOW) if len(levels(where(rows, fast=fast), "neighbors")) > 1]
 
 
-def _draw_peaks(peaks: list[tuple["Axes", str, str, PeakMark]]) -> None:
-    """Under the curves, the place of each peak with its interval; a dotted line leads there."""
-    if not peaks:
-        return
-    axes = peaks[0][0]
-    bottom, top = axes.get_ylim()
-    step = 0.055 * (top - bottom)
-    lanes: dict[Any, int] = {}
-    for panel, color, marker, peak in peaks:
-        lane = lanes[panel] = lanes.get(panel, 0) + 1
-        y = bottom - (lane - 0.25) * step
-        at = peak.place.value
-        panel.plot([at, at], [y, peak.height.value], ":", color=color, linewidth=1.0, zorder=2.5)
-        panel.plot(
-            [peak.place.low, peak.place.high], [y, y], color=color, linewidth=2.2, solid_capstyle="butt", zorder=3
-        )
-        panel.plot([at], [y], marker, color=color, markeredgecolor=INK, markeredgewidth=0.7, markersize=4, zorder=4)
-    ticks = [tick for tick in axes.get_yticks() if bottom <= tick <= top]
-    axes.set_ylim(bottom - (max(lanes.values()) + 0.5) * step, top)
-    axes.set_yticks(ticks)
+def _draw_peak(axes: "Axes", color: str, marker: str, peak: PeakMark) -> None:
+    """A peak where it is, with the intervals of its k and of its height."""
+    place, height = peak.place, peak.height
+    for x, y in (([place.low, place.high], [height.value] * 2), ([place.value] * 2, [height.low, height.high])):
+        axes.plot(x, y, color=INK, linewidth=1.0, solid_capstyle="butt", zorder=3.5)
+    axes.plot([place.value], [height.value], marker, color=color, markeredgecolor=INK, markeredgewidth=0.9,
+              markersize=5.5, zorder=4)  # fmt: skip
+
+
+def _told_peaks(peaks: Sequence[str]) -> str:
+    """What the crosses are, and their numbers; nothing without any."""
+    return f"Crosses: peaks, with the 95 % intervals of place and height; {'; '.join(peaks)}. " if peaks else ""
 
 
 def _legends_above(panels: Sequence["Axes"]) -> None:
@@ -159,11 +153,11 @@ def _legends_above(panels: Sequence["Axes"]) -> None:
         axes.legend(loc="upper left", ncols=1, borderaxespad=0.1, borderpad=0.2)
 
 
-def _label_panel(axes: "Axes", row: int, column: int, quantity: Quantity, speed: float) -> None:
+def _label_panel(axes: "Axes", number: int, quantity: Quantity | None, speed: float) -> None:
+    """Letter and speed above, the quantity beside the first of a row."""
     axes.grid(visible=True)
-    if row == 0:
-        axes.set_title(speed_text(speed))
-    if column == 0:
+    axes.set_title(lettered(number, speed_text(speed)))
+    if quantity:
         axes.set_ylabel(quantity.label)
 
 
@@ -171,7 +165,7 @@ def _shades(count: int) -> list[Any]:
     """Colors from dark to light, for values in order."""
     from matplotlib import colormaps
 
-    return [colormaps["viridis"](share) for share in np.linspace(0.0, 0.78, count)]
+    return [colormaps["viridis"](share) for share in np.linspace(0.0, _LIGHTEST, count)]
 
 
 def _pairs(rows: Sequence[Any], columns: Sequence[Any]) -> list[tuple[tuple[int, Any], tuple[int, Any]]]:

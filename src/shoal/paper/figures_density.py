@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from shoal.drawing.style import FLEET_COLORS, new_figure, style
+from shoal.drawing.style import lettered, line_color, new_figure, style
 from shoal.experiments.rows import Row
 from shoal.paper.figures_series import (
     DOUBLE,
@@ -23,10 +23,10 @@ from shoal.paper.results import Figure
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_ON_TARGET = Quantity("on_target_share", "agents on target", "%", 100.0, 100.0)
-_COVERAGE = Quantity("coverage", "coverage in 1,000 steps", "%", 100.0, 100.0)
+_ON_TARGET = Quantity("on_target_share", "agents on target", "share", most=1.0)
+_COVERAGE = Quantity("coverage", "coverage in 1,000 steps", "share", most=1.0)
 _MARKERS = ("o", "s", "^", "D", "v")
-_COLORS = (*FLEET_COLORS[:4], "#6b4c9a")
+_COLORS = tuple(map(line_color, range(5)))
 _OVER_DENSITY = (TIME_ON_TARGET, XI, _ON_TARGET, _COVERAGE)
 _OVER_NUMBER = (TIME_ON_TARGET, _ON_TARGET)
 
@@ -50,12 +50,12 @@ def density_figures(rows: Mapping[str, Sequence[Row]]) -> list[Figure]:
             data += _over_density(axes, side, quantity)
         for axes, quantity in zip(panels[4:], _OVER_NUMBER, strict=True):
             data += _over_number(axes, rows, quantity)
-        for letter, axes in zip("abcdef", panels, strict=True):
-            axes.set_title(letter, loc="left", fontweight="bold")
+        for number, axes in enumerate(panels):
+            axes.set_title(lettered(number))
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper left", ncols=5, borderaxespad=0.2)
         figure.legend(*panels[4].get_legend_handles_labels(), loc="outside lower right", ncols=3, borderaxespad=0.2)
     caption = (
-        f"a to d: {AGENTS} agents in areas of 8 to 64 m, against their density, a curve per k. e, f: the number of "
+        f"(a) to (d) {AGENTS} agents in areas of 8 to 64 m, against their density, a curve per k. (e, f) The number of "
         f"agents at three fixed densities, k = {NUMBER_NEIGHBORS}. {seeds_text(side)}"
     )
     return [Figure("density", "Density: phases of tracking, and the number of agents", caption, figure, data)]

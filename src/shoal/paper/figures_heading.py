@@ -3,7 +3,7 @@
 import math
 from typing import TYPE_CHECKING
 
-from shoal.drawing.style import FLEET_COLORS, GRAY, INK, TARGET, new_figure, style
+from shoal.drawing.style import FLEET_COLORS, GRAY, INK, TARGET, WIDTHS, lettered, new_figure, style
 from shoal.experiments.rows import Row
 from shoal.paper.results import Figure
 
@@ -23,12 +23,12 @@ def heading_figure() -> Figure:
     """Draw a buoy, its heading, the bearing of the target, and phi, the cosine of the angle between them."""
     data: list[Row] = []
     with style():
-        figure = new_figure(7.16, 1.75)
+        figure = new_figure(WIDTHS["double"], 1.75)
         figure.set_layout_engine("constrained", w_pad=0.02)
-        for axes, (name, angle) in zip(figure.subplots(1, len(_SKETCHES)), _SKETCHES, strict=True):
+        for number, (axes, (name, angle)) in enumerate(zip(figure.subplots(1, len(_SKETCHES)), _SKETCHES, strict=True)):
             _sketch(axes, angle)
             phi = math.cos(math.radians(angle))
-            axes.set_title(f"φ = cos {angle:.0f}° = {phi:.2f}".replace("-", "−"), loc="center", fontsize=8.5)
+            axes.set_title(lettered(number, f"φ = cos {angle:.0f}° = {phi:.2f}").replace("-", "−"), fontsize=8.0)
             axes.set_xlabel(name)
             data.append({"what": name, "angle [deg]": angle, "phi": phi})
     caption = (

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from shoal.drawing.histogram import draw_phi_bars, label_phi
-from shoal.drawing.style import INK, new_figure, style
+from shoal.drawing.histogram import DENSITY, WIDTHS, draw_phi_bars, label_phi
+from shoal.drawing.style import INK, lettered, new_figure, style
 from shoal.experiments.rows import Row
 from shoal.metrics.heading_bearing import CENTERS
 from shoal.metrics.summary import Bounds
@@ -58,10 +58,12 @@ def phi_figure(rows: Sequence[Row]) -> Figure | None:
                 data += _draw_panel(panels[i, j], where(known, **labels), labels)
             panels[i, 0].set_ylabel(f"k = {k}\n{speed:g} m/s", rotation=0, ha="right", va="center", labelpad=6)
         for axes, fast in zip(panels[0], swarms, strict=True):
-            axes.set_title(swarm_text(fast).capitalize())
+            axes.set_title(swarm_text(fast).capitalize(), pad=8)
+        for number, axes in enumerate(panels.ravel()):
+            axes.text(0.075, 0.95, lettered(number), transform=axes.transAxes, va="top", fontweight="bold")
         for axes in panels[-1]:
             label_phi(axes, "still or across")
-        figure.supylabel("mean agents per step", fontsize=8.5)
+        figure.supylabel(DENSITY, fontsize=8.0)
         handles, names = _legend(panels[0, 0])
         figure.legend(handles, names, loc="outside upper left", ncols=len(names), borderaxespad=0.2)
     return Figure(
@@ -93,13 +95,14 @@ def _draw_panel(axes: "Axes", cell: Sequence[Row], labels: dict[str, Any]) -> li
         for at, height in zip(_PHI, heights.tolist(), strict=True)
     ]
     totals = intervals(list(np.array([row["phi_histogram"] for row in cell]).T), Bounds(0.0, AGENTS))
-    for left, right, at, (mean, low, high) in zip(PHI_EDGES[:-1], PHI_EDGES[1:], _PHI, totals, strict=True):
-        axes.vlines((left + right) / 2, low, high, color=INK, linewidth=0.9)
+    for left, wide, at, (mean, low, high) in zip(PHI_EDGES[:-1], WIDTHS, _PHI, totals, strict=True):
+        for color, line in (("white", 2.6), (INK, 1.1)):  # seen on dark bars, too
+            axes.vlines(left + wide / 2, low / wide, high / wide, color=color, linewidth=line)
         data.append({**labels, "agents": "all", "phi": at, "unit": _UNIT, "mean": mean,
                      "low": low, "high": high, "runs": len(cell)})  # fmt: skip
     still = series(cell, "neighbors", _STATIONARY)
     if still.mean:
-        axes.text(0.02, 0.9, f"{still.mean[0]:.1f} % stationary", transform=axes.transAxes, va="top", fontsize=8)
+        axes.text(0.15, 0.95, f"{still.mean[0]:.1f} % stationary", transform=axes.transAxes, va="top", fontsize=8)
         data += still.rows("neighbors", _STATIONARY, **labels, agents="all")
     return data
 
@@ -121,9 +124,9 @@ def _legend(axes: "Axes") -> tuple[list[Any], list[str]]:
 def _caption(rows: Sequence[Row]) -> str:
     seeds = len({row.get("run") for row in rows})
     return (
-        "How many agents head away from the target (φ = −1), toward it (φ = 1), or neither: mean agents per step, all "
-        "bars of a panel summing to 50; the two outer bins are half as wide as the others. Left the mixed swarm, right "
-        "the all-slow one; rows are numbers of neighbors k and target speeds. Agents slower than a tenth of their top "
-        "speed count as stationary, at φ = 0, where the bar also holds those that move across. "
+        "How many agents head away from the target (φ = −1), toward it (φ = 1), or neither: mean agents per step and "
+        "unit of φ, so that the areas of all bars of a panel sum to 50; the two outer bins are half as wide. Left the "
+        "mixed swarm, right the all-slow one; rows are numbers of neighbors k and target speeds. Agents slower than a "
+        "tenth of their top speed count as stationary, at φ = 0, where the bar also holds those that move across. "
         + (f"Black lines: 95 % interval of the sum over {seeds} seeds." if seeds > 1 else "One seed: no intervals.")
     )

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from shoal.drawing.style import FLEET_COLORS, GRAY, TARGET, new_figure, style
+from shoal.drawing.style import GRAY, INK, lettered, line_color, new_figure, style
 from shoal.experiments.rows import Row
 from shoal.paper.figures_series import (
     DOUBLE,
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
 ADAPTIVE, CONSTANT = "aamas2020", "aamas2020-constant"
 _LOOKS = {
-    ADAPTIVE: ("adaptive repulsion", FLEET_COLORS[0], "o"),
-    CONSTANT: ("constant repulsion", FLEET_COLORS[2], "s"),
+    ADAPTIVE: ("adaptive repulsion", line_color(0), "o"),
+    CONSTANT: ("constant repulsion", line_color(1), "s"),
 }
 _QUANTITIES = (TIME_ON_TARGET, RESPONSE)
 
@@ -57,6 +57,8 @@ def published_figure(rows: Sequence[Row], published: Sequence[Row]) -> Figure | 
             data += shown + _draw_residuals(panels[1, j], points, quantity)
             panels[1, j].set_xlabel("number of neighbors k")
             panels[1, j].set_xticks(levels(rows, "neighbors")[::2])
+        for number, axes in enumerate(panels.ravel()):
+            axes.set_title(lettered(number))
         handles, labels = panels[0, 0].get_legend_handles_labels()
         figure.align_ylabels(panels[:, 0])
         figure.align_ylabels(panels[:, 1])
@@ -73,7 +75,7 @@ def published_figure(rows: Sequence[Row], published: Sequence[Row]) -> Figure | 
 def _draw_curves(axes: "Axes", rows: Sequence[Row], published: Sequence[Row], quantity: Quantity) -> list[Row]:
     data: list[Row] = []
     for preset in dict.fromkeys(row.get("preset", ADAPTIVE) for row in rows):
-        label, color, marker = _LOOKS.get(preset, (str(preset), FLEET_COLORS[3], "^"))
+        label, color, marker = _LOOKS.get(preset, (str(preset), line_color(2), "^"))
         mine = [row for row in rows if row.get("preset", ADAPTIVE) == preset]
         points = series(mine, "neighbors", quantity)
         curve(axes, points, label, color, marker)
@@ -81,7 +83,7 @@ def _draw_curves(axes: "Axes", rows: Sequence[Row], published: Sequence[Row], qu
     x = [row["neighbors"] for row in published]
     y = [quantity.factor * row["published"] for row in published]
     if x:
-        axes.plot(x, y, "x", color=TARGET, markersize=6, markeredgewidth=1.4, zorder=4, label="published")
+        axes.plot(x, y, "x", color=INK, markersize=6, markeredgewidth=1.4, zorder=4, label="published")
     data += [
         {"source": "published", "neighbors": k, "quantity": quantity.name, "unit": quantity.unit, "mean": value,
          "low": math.nan, "high": math.nan}
@@ -93,8 +95,8 @@ def _draw_curves(axes: "Axes", rows: Sequence[Row], published: Sequence[Row], qu
 
 
 def _draw_residuals(axes: "Axes", published: Sequence[Row], quantity: Quantity) -> list[Row]:
-    """Measured less published, in the unit of the panel above (percentage points for shares)."""
-    unit = "% points" if quantity.unit == "%" else quantity.unit
+    """Measured less published, in the unit of the panel above."""
+    unit = quantity.unit
     axes.set_ylabel(f"residual\n[{unit}]")
     axes.grid(visible=True)
     axes.axhline(0.0, color=GRAY, linewidth=0.9)
@@ -102,8 +104,8 @@ def _draw_residuals(axes: "Axes", published: Sequence[Row], quantity: Quantity) 
     for row in (row for row in published if _known(row, "measured")):
         k, truth = row["neighbors"], row["published"]
         at, low, high = (quantity.factor * (row.get(name, math.nan) - truth) for name in ("measured", "low", "high"))
-        axes.vlines(k, low, high, color=FLEET_COLORS[0], linewidth=1.4)
-        axes.plot([k], [at], "o", color=FLEET_COLORS[0], markersize=3.8)
+        axes.vlines(k, low, high, color=line_color(0), linewidth=1.4)
+        axes.plot([k], [at], "o", color=line_color(0), markersize=3.8)
         data.append({"source": "measured less published", "neighbors": k, "quantity": quantity.name, "unit": unit,
                      "mean": at, "low": low, "high": high})  # fmt: skip
     tolerance = sorted(

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from shoal.drawing.style import FLEET_COLORS, GRAY, INK, new_figure, style
+from shoal.drawing.style import GRAY, INK, lettered, line_color, new_figure, style
 from shoal.experiments.rows import Row
 from shoal.paper.figures_series import DOUBLE
 from shoal.paper.plan import MIXED
@@ -25,7 +25,7 @@ _PEAKS = (
 )
 _LIMITS = (8.0, 49.0)
 _LINE = 0.19  # [inch] height of a reading
-_SPEEDS = ((3.0, FLEET_COLORS[0], "o", 0.16), (5.0, "#D55E00", "s", -0.16))
+_SPEEDS = ((3.0, line_color(0), "o", 0.16), (5.0, line_color(2), "s", -0.16))
 
 
 def readings_figure(scores: Sequence[Row]) -> Figure | None:
@@ -77,6 +77,8 @@ def readings_peaks_figure(scores: Sequence[Row], peaks: Sequence[Row]) -> Figure
         panels = figure.subplots(1, len(_PEAKS), sharey=True)
         for axes, (title, fast, column, aim) in zip(panels, _PEAKS, strict=True):
             data += _draw_peaks(axes, scores, peaks, title, fast, column, aim)
+        for number, axes in enumerate(panels):
+            axes.set_title(lettered(number))
         _label_lines(panels[0], scores)
         for axes in panels[1:]:
             _part(axes, scores)

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from shoal.drawing.style import FLEET_COLORS, new_figure, style
+from shoal.drawing.style import lettered, line_color, new_figure, style
 from shoal.experiments.rows import Row
 from shoal.paper.figures_peaks import peak_of
 from shoal.paper.figures_series import (
@@ -20,11 +20,11 @@ from shoal.paper.figures_series import (
 from shoal.paper.plan import MIXED
 from shoal.paper.results import Figure
 
-_SWARMS = {MIXED: (FLEET_COLORS[0], "o", 0.17), ALL_SLOW: (FLEET_COLORS[2], "s", -0.17)}
+_SWARMS = {MIXED: (line_color(0), "o", 0.17), ALL_SLOW: (line_color(1), "s", -0.17)}
 _PANELS: tuple[tuple[Quantity, str, str], ...] = (
     (TIME_ON_TARGET, "k* (time on target peaks)", "place"),
     (XI, "k of the peak of Ξ", "place"),
-    (TIME_ON_TARGET, "time on target at k* [%]", "height"),
+    (TIME_ON_TARGET, "time on target at k* [share]", "height"),
 )
 
 
@@ -70,6 +70,8 @@ def sensitivity_figure(rows: Sequence[Row], speed: float) -> Figure | None:
                 axes.axhspan(line - 0.5, line + 0.5, color="#f3f5f7", linewidth=0, zorder=0)
             axes.set_xlabel(label)
             axes.grid(axis="x")
+        for number, axes in enumerate(panels):
+            axes.set_title(lettered(number))
         panels[0].set_yticks(range(len(names)), names)
         panels[0].set_ylim(len(names) - 0.5, -0.5)
         for axes in panels:

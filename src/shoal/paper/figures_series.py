@@ -8,16 +8,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shoal.drawing.curves import Curve, draw_curve
+from shoal.drawing.style import WIDTHS
 from shoal.experiments.rows import Row
-from shoal.metrics.summary import Bounds
+from shoal.metrics.summary import METRICS, Bounds
 from shoal.paper.curves import FEW, intervals
 from shoal.paper.plan import AGENTS
+from shoal.record.names import unit_text
 from shoal.scenario.edit import SHORTHANDS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-SINGLE, DOUBLE = 3.5, 7.16  # [inch] column widths of the paper
+SINGLE, DOUBLE = WIDTHS["single"], WIDTHS["double"]  # [inch]
 ALL_SLOW = 0  # fast buoys, as MIXED
 CURVE_FIELDS = ("fast", "neighbors", "target_speed")
 
@@ -38,10 +40,10 @@ class Quantity:
         return f"{self.name} [{self.unit}]" if self.unit else self.name
 
 
-TIME_ON_TARGET = Quantity("time_on_target", "time on target", "%", 100.0, 100.0)
+TIME_ON_TARGET = Quantity("time_on_target", "time on target", "share", most=1.0)
 XI = Quantity("xi", "velocity fluctuation Ξ", "")
 XI_RAW = Quantity("xi_raw", "Ξ not normalized", "m/s")
-RESPONSE = Quantity("response", "response", "unit/step")
+RESPONSE = Quantity("response", "response", unit_text(METRICS["response"]))
 
 
 @dataclass(frozen=True)
@@ -109,7 +111,7 @@ def curve(
     drawn = Curve(label)
     for x, mean, low, high in zip(points.x, points.mean, points.low, points.high, strict=True):
         drawn.add(x_factor * x, mean, low, high)
-    draw_curve(axes, drawn, color, marker, bold)
+    draw_curve(axes, drawn, color, marker, bold=bold)
 
 
 def show_means(axes: "Axes", rows: Iterable[Row]) -> None:

@@ -3,10 +3,10 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from shoal.drawing.style import FLEET_COLORS, new_figure, style
+from shoal.drawing.style import lettered, line_color, new_figure, style
 from shoal.experiments.rows import Row
 from shoal.paper.curves import curve, intervals, values_of
-from shoal.paper.figures_series import DOUBLE
+from shoal.paper.figures_series import DOUBLE, TIME_ON_TARGET
 from shoal.paper.plan import MIXED
 from shoal.paper.results import Figure
 from shoal.paper.side_plan import BASE
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _NEIGHBORS = 20
-_SPEEDS = ((FLEET_COLORS[0], "o", 0.15), ("#D55E00", "s", -0.15))
+_SPEEDS = ((line_color(0), "o", 0.15), (line_color(2), "s", -0.15))
 
 
 def sides_figure(readings: Mapping[str, Sequence[Row]]) -> Figure | None:
@@ -34,11 +34,11 @@ def sides_figure(readings: Mapping[str, Sequence[Row]]) -> Figure | None:
         figure = new_figure(DOUBLE, 0.9 + 0.19 * len(names))
         figure.set_layout_engine("constrained", h_pad=0.05, w_pad=0.05)
         panels = figure.subplots(1, len(known), sharey=True, squeeze=False)[0]
-        for axes, (reading, rows) in zip(panels, known.items(), strict=True):
+        for number, (axes, (reading, rows)) in enumerate(zip(panels, known.items(), strict=True)):
             data += _draw(axes, reading, rows, names)
-            axes.set_title(reading)
-            axes.set_xlabel("time on target [%]")
-            axes.set_xlim(0, 100)
+            axes.set_title(lettered(number, reading))
+            axes.set_xlabel(TIME_ON_TARGET.label)
+            axes.set_xlim(0.0, 1.0)
             axes.grid(axis="x")
             axes.tick_params(axis="y", length=0)
         panels[0].set_yticks(range(len(names)), names)
@@ -61,13 +61,13 @@ def _draw(axes: "Axes", reading: str, rows: Sequence[Row], names: Sequence[str])
             found = curve(mine, "time_on_target", fast=MIXED, target_speed=speed)
             if _NEIGHBORS not in found.x:
                 continue
-            at, low, high = intervals([100 * values for values in found.runs.T])[list(found.x).index(_NEIGHBORS)]
+            at, low, high = intervals(list(found.runs.T))[list(found.x).index(_NEIGHBORS)]
             axes.plot(
-                [max(low, 0.0), min(high, 100.0)], [line - shift] * 2, color=color, linewidth=1.6, solid_capstyle="butt"
+                [max(low, 0.0), min(high, 1.0)], [line - shift] * 2, color=color, linewidth=1.6, solid_capstyle="butt"
             )
             axes.plot([at], [line - shift], marker, color=color, markersize=4)
             place = {"reading": reading, "setting": name, "target_speed": speed}
-            data.append({**place, "unit": "%", "value": at, "low": low, "high": high})
+            data.append({**place, "unit": TIME_ON_TARGET.unit, "value": at, "low": low, "high": high})
             if name == BASE:
                 axes.axvline(at, color=color, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
     for line in range(1, len(names), 2):

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from shoal.drawing.snapshot import draw_snapshot
-from shoal.drawing.style import FLEET_COLORS, GRAY, INK, new_figure, style
+from shoal.drawing.style import FLEET_COLORS, GRAY, INK, lettered, new_figure, style
 from shoal.drawing.words import count
 from shoal.experiments.rows import Row
-from shoal.paper.figures_series import DOUBLE
+from shoal.paper.figures_series import DOUBLE, SINGLE
 from shoal.paper.results import Figure
 from shoal.paper.snapshots import Clustering, Locked, find_clustering, find_locked
 from shoal.record.record import Record
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as MplFigure
 
 _RUN = 0
+_OURS = (
+    "Signs are those of all our figures: circles are fast buoys, triangles slow ones; the paper has crosses for both."
+)
 _TRAIL = 30  # steps of the target's trail, a third of it for the buoys'
 _AROUND = 300  # steps of the distance shown before and after the two moments
 
@@ -29,9 +32,9 @@ def locked_figure(record: Record) -> Figure:
     frames = record.trajectories[_RUN]
     x, y = frames.x[found.frame], frames.y[found.frame]
     with style():
-        width, height = 4.6, 5.3
+        width, height = SINGLE, 4.55
         figure = new_figure(width, height)
-        axes = figure.add_axes((0.62 / width, 0.73 / height, 3.85 / width, 3.85 / height))
+        axes = figure.add_axes((0.57 / width, 0.9 / height, 2.8 / width, 2.8 / height))
         draw_snapshot(axes, record, _RUN, found.frame, trail=_TRAIL)
         looks = (
             (found.locked, INK, 1.2, "strongest repulsion, locked"),
@@ -43,7 +46,7 @@ def locked_figure(record: Record) -> Figure:
                 zorder=6, clip_on=False,
             )  # fmt: skip
         handles, labels = axes.get_legend_handles_labels()
-        figure.legend(handles, labels, loc="lower left", bbox_to_anchor=(0.62 / width, 0.0), ncols=2, borderaxespad=0.3)
+        figure.legend(handles, labels, loc="lower left", bbox_to_anchor=(0.57 / width, 0.0), ncols=1, borderaxespad=0.3)
     data = _frame_rows(record, found.frame, {}, locked=found.locked, pushing=found.pushing)
     return Figure("locked", "Agents locked in place", _locked_caption(record, found), figure, data)
 
@@ -62,7 +65,7 @@ def clustering_figure(record: Record) -> Figure:
             draw_snapshot(axes, record, _RUN, frame, trail=_TRAIL)
             _share_legend(axes, figure)
             step = int(record.trajectories[_RUN].step[frame])
-            axes.set_title(f"{'AB'[number]}  Fast buoys {name}, step {count(step)}", pad=7)
+            axes.set_title(lettered(number, f"Fast buoys {name}, step {count(step)}"), pad=7)
             data += _frame_rows(record, frame, {"panel": name})
         strip = figure.add_axes((0.55 / DOUBLE, 0.42 / height, (DOUBLE - 0.65) / DOUBLE, 0.68 / height))
         data += _draw_distance(strip, record, found, apart)
@@ -89,15 +92,15 @@ def _draw_distance(axes: "Axes", record: Record, found: Clustering, apart: int) 
     window = slice(max(0, found.together - _AROUND), min(len(step), apart + _AROUND))
     axes.plot(step[window], found.distance[window], color=FLEET_COLORS[0], linewidth=1.2)
     axes.axhline(found.median, color=GRAY, linewidth=0.8, linestyle=(0, (4, 3)))
-    for frame, name in ((found.together, "A"), (apart, "B")):
+    for frame, name in ((found.together, "a"), (apart, "b")):
         axes.plot([step[frame]], [found.distance[frame]], "o", color=INK, markersize=4.5)
         axes.annotate(name, (step[frame], found.distance[frame]), (5, -3), textcoords="offset points",
                       fontweight="bold", va="top")  # fmt: skip
     axes.set_xlim(step[window][0], step[window][-1])
     axes.set_ylim(0.0, 1.15 * float(found.distance[window].max()))
-    axes.set_title("Mean distance between two fast buoys (dashed: its median over the run)", fontsize=8.5, pad=4)
+    axes.set_title(lettered(2, "Mean distance between two fast buoys (dashed: its median over the run)"), pad=4)
     axes.set_xlabel("step", labelpad=1)
-    axes.set_ylabel("[m]")
+    axes.set_ylabel("distance [m]")
     axes.grid(visible=True)
     rows = zip(step[window].tolist(), found.distance[window].tolist(), strict=True)
     return [
@@ -138,22 +141,22 @@ def _locked_caption(record: Record, found: Locked) -> str:
         f"top speed), {edge_text}, while "
         f"{on_target} {'is' if on_target == 1 else 'are'} on target. Of {count(frames.step.size)} steps this is the "
         "first with the most buoys locked inside the area while others are on target. "
-        f"Lines: the last {_TRAIL} steps of the target, {_TRAIL // 3} of the buoys."
+        f"Lines: the last {_TRAIL} steps of the target, {_TRAIL // 3} of the buoys. {_OURS}"
     )
 
 
 def _clustering_caption(record: Record, found: Clustering, apart: int) -> str:
     seconds = (apart - found.together) * record.facts.time_step
     later = (
-        f"B: the first later step with that distance above its median over the run, {found.median:.1f} m; this takes "
+        f"(b) The first later step with that distance above its median over the run, {found.median:.1f} m; this takes "
         f"{seconds:.1f} s."
         if found.apart is not None
-        else f"B: the last step; the distance is not back above its median over the run, {found.median:.1f} m."
+        else f"(b) The last step; the distance is not back above its median over the run, {found.median:.1f} m."
     )
     return (
-        f"{_swarm(record)}. A: of {count(found.distance.size)} steps, the one with the smallest mean distance between "
-        f"two fast buoys while somebody is on target, {found.distance[found.together]:.1f} m. {later} Below, that "
-        "distance over time."
+        f"{_swarm(record)}. (a) Of {count(found.distance.size)} steps, the one with the smallest mean distance between "
+        f"two fast buoys while somebody is on target, {found.distance[found.together]:.1f} m. {later} (c) That "
+        f"distance over time. {_OURS}"
     )
 
 

@@ -87,7 +87,7 @@ def published_claims(table: Sequence[Row]) -> list[Claim]:
                 Claim(
                     id_,
                     f"The published {name} over k is met {bar}, or within the spread of runs.",
-                    f"the largest residual is {case_text(largest, digits=4)}; {count(cases)}",
+                    f"the largest residual is {case_text(largest)}; {count(cases)}",
                     *largest.number,
                     unit,
                     verdict_of(cases),

@@ -9,6 +9,7 @@ from typing import Any
 from shoal.experiments.rows import Row
 from shoal.paper.report_words import COLUMNS, METRICS
 from shoal.paper.results import Claim
+from shoal.record.words import told
 
 BADGES = {  # a sign and a class for each verdict: color is never the only one
     "holds": ("\u2713", "holds"),
@@ -106,13 +107,8 @@ def data_table(rows: Sequence[Row], title: str) -> str:
 
 
 def interval_text(value: float, low: float, high: float) -> str:
-    """0.832 [0.829, 0.835]: to the first digit of the interval's half-width, or the second after a 1 or 2."""
-    if not (math.isfinite(low) and math.isfinite(high)):
-        return number_text(value)
-    half = (high - low) / 2
-    decimals = min(max(-math.floor(math.log10(half / 3)), 0), 5) if half > 0 else 3
-    shown = [f"{each:.{decimals}f}" for each in (value, low, high)] if half > 0 else [f"{value:.4g}"] * 3
-    return f"{shown[0]}\u00a0[{shown[1]},\u00a0{shown[2]}]".replace("-", "\u2212")
+    """0.832 [0.829, 0.835], on one line."""
+    return told(value, low, high).replace(" ", "\u00a0")
 
 
 def tidy(text: str) -> str:
@@ -121,16 +117,8 @@ def tidy(text: str) -> str:
 
 
 def number_text(value: float) -> str:
-    """A whole number as it is, others to four digits, or four decimals below 1; a dash where there is none."""
-    if isinstance(value, int):
-        text = str(value)
-    elif not math.isfinite(value):
-        return _DASH
-    elif value.is_integer():
-        text = f"{value:.0f}"
-    else:
-        text = f"{value:.4g}" if abs(value) >= 1 else f"{value:.4f}"
-    return text.replace("-", "\u2212")
+    """A number without an interval; a dash where there is none."""
+    return told(value) if math.isfinite(value) else _DASH
 
 
 def _intervals(names: Sequence[str]) -> dict[str, tuple[str, str]]:

@@ -4,6 +4,7 @@ from shoal.paper import alife_claims, cases, density_claims, readings, readings_
 from shoal.paper.curves import FEW
 from shoal.paper.leave_out import best_gain
 from shoal.paper.published import BARS
+from shoal.record.names import label_of
 
 TITLES = {
     "oceans2020": (
@@ -55,13 +56,13 @@ COLUMNS: dict[str, tuple[str, str]] = {
     "fast": ("fast buoys", "of 50"),
     "target_speed": ("target", "m/s"),
     "k_star": ("k*", ""),
-    "time_on_target": ("time on target at k*", "share of steps"),
+    "time_on_target": ("time on target at k*", "share"),
     "xi_peak_k": ("k of the peak of Ξ", ""),
     "xi": ("Ξ there", ""),
     "at_edge": ("at edge", "of the k"),
     "tolerance": ("tolerated", ""),
 }
-METRICS = {"time_on_target": "time on target [share of steps]", "xi": "Ξ", "response": "response [unit/step]"}
+METRICS = {name: label_of(name) for name in ("time_on_target", "xi", "response")}
 
 _SEEDS = (
     f"Each point is run with several seeds. Its interval is Student\u2019s t over them, at 95 %; with fewer than {FEW} "

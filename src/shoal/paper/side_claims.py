@@ -109,7 +109,7 @@ def c14(sides: Sides) -> Claim:
 def c15(sides: Sides) -> Claim:
     """Cases: time on target without less with the memory of memory-pso, at four k and each speed."""
     losses = {place: base - other for place, (base, other) in _pairs(sides, BASE, MEMORY).items()}
-    return _claim("C15", percent(rising(losses)), "the least that memory costs is {}", "sides", "% points", digits=2)
+    return _claim("C15", percent(rising(losses)), "the least that memory costs is {}", "sides", "% points")
 
 
 def c16(sides: Sides) -> Claim:
@@ -242,7 +242,7 @@ def c26(sides: Sides) -> Claim:
     least = min((float(other.min()) for _, other in known.values()), default=np.nan)
     without = f"; without repulsion the smallest is {least:.3f} m"
     cases = _in_every_run({place: base for place, (base, _) in known.items()}, HULL)
-    return _claim("C26", cases, "the smallest distance is {} m", "sides", "m", digits=3, note=without)
+    return _claim("C26", cases, "the smallest distance is {} m", "sides", "m", note=without)
 
 
 def c27(main: Sequence[Row]) -> Claim:
@@ -264,9 +264,7 @@ def c28(main: Sequence[Row]) -> Claim:
     spreads = [values.std(ddof=1) / values.mean() for values in cells(main, heading_there)]
     number = bootstrap(spreads, np.median)
     cases = percent([judged("agents with phi of 0.7 and more", number, partial(within, low=0.0, high=LOW_SPREAD))])
-    return _claim(
-        "C28", cases, "standard deviation / mean over runs, in the median cell: {} %", "phi_histograms", "%", digits=2
-    )
+    return _claim("C28", cases, "standard deviation / mean over runs, in the median cell: {} %", "phi_histograms", "%")
 
 
 def _in_every_run(numbers: Mapping[str, Floats], least: float) -> list[Case]:
@@ -318,13 +316,12 @@ def _claim(
     unit: str,
     *,
     aim: float | None = None,
-    digits: int = 1,
     note: str = "",
 ) -> Claim:
     """As the claims of the paper's figures are worded: all cases where they are few, else the worst."""
     key = worst(cases, aim)
     shown = cases if 0 < len(cases) <= _FEW_CASES else [key]
-    listed = "; ".join(case_text(case, digits=digits) for case in shown)
+    listed = "; ".join(case_text(case) for case in shown)
     rest = "" if len(shown) == len(cases) else f"; {count(cases)}"
     measured = f"{text.format(listed)}{rest}{note}"
     return Claim(id_, STATEMENTS[id_], measured, *key.number, unit, verdict_of(cases), figure, *count(cases))

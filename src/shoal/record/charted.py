@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from shoal.metrics.summary import METRICS
+from shoal.record.names import unit_text
 from shoal.scenario.schema import Scenario
 
 FIRST = ("time_on_target", "xi", "engaged")  # charted unless others are chosen
@@ -33,7 +34,7 @@ def describe_metric(name: str) -> dict[str, Any]:
     return {
         "name": name,
         "label": metric.words,
-        "unit": metric.unit,
+        "unit": unit_text(metric) or "1",
         "sentence": metric.sentence,
         "least": metric.low if math.isfinite(metric.low) else None,
         "most": metric.high if isinstance(metric.high, (int, float)) and math.isfinite(metric.high) else None,

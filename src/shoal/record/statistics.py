@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shoal.metrics.summary import ANYTHING, Bounds
+from shoal.record.words import interval_text, mean_text
 
 # 97.5 % quantiles of Student's t for 1 to 30 degrees of freedom (standard table); beyond, Cornish-Fisher around z.
 _T975 = (
@@ -37,9 +38,8 @@ class Estimate(NamedTuple):
 
     def _repr_html_(self) -> str:
         """The same for a notebook."""
-        interval = f", 95 % interval {self.ci95[0]:.4g} .. {self.ci95[1]:.4g}" if self.ci95 else ""
-        runs = len(self.runs)
-        return f"<b>{self.mean:.4g}</b>{interval}, {runs} run{'s' * (runs != 1)}"
+        ends, runs = interval_text(self), len(self.runs)
+        return f"<b>{mean_text(self)}</b>{f' {ends}' * bool(ends)}, {runs} run{'s' * (runs != 1)}"
 
 
 def estimate(runs: npt.ArrayLike, batches: npt.ArrayLike | None = None, bounds: Bounds = ANYTHING) -> Estimate:

@@ -27,6 +27,7 @@ from shoal.experiments.rows import Row
 from shoal.experiments.run_comparison import comparison_design, run_comparison, values_of
 from shoal.experiments.sweep import Progress
 from shoal.metrics.summary import METRICS, bounds_of
+from shoal.record.names import label_of
 from shoal.record.tables import data_frame
 from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source
@@ -37,6 +38,8 @@ from shoal.study.varied import Values, varied, written
 if TYPE_CHECKING:
     import pandas
     from matplotlib.figure import Figure
+
+    from shoal.drawing.style import Width
 
 RUNS = 20
 Found = list[tuple[dict[str, Any], dict[str, list[Row | None]]]]  # by condition, the rows of each strategy
@@ -97,13 +100,18 @@ class Compared:
             raise UnknownNameError.of("table", what, tables)
         return data_frame(tables[what](), "a comparison as a DataFrame")
 
-    def plot(self) -> "Figure":
-        """Draw curves if one number varies, else bars: a panel per condition (extra: plots)."""
+    def plot(self, width: "Width" = "double") -> "Figure":
+        """Draw curves if one number varies, else bars: a panel per condition (extra: plots).
+
+        Parameters
+        ----------
+        width : of one column of a journal (single), or of two (double)
+        """
         from shoal.drawing.style import style
         from shoal.study.comparison_figure import comparison_figure
 
         with style():
-            return comparison_figure(self.comparison, self.metric)
+            return comparison_figure(self.comparison, self.metric, width)
 
     def __repr__(self) -> str:
         """The table."""
@@ -115,13 +123,12 @@ class Compared:
 
     def _sheet(self) -> Sheet:
         several = len(self.conditions) > 1
-        titles = ("", "strategy", self.metric, f"minus {self.baseline}", "adj. p", "verdict")
+        titles = ("", "strategy", METRICS[self.metric].words, f"minus {self.baseline}", "adj. p", "verdict")
         better = {1: "more is better", -1: "less is better", 0: "neither more nor less is better"}[self.direction]
         runs = f"{self.runs} run{'s' * (self.runs != 1)} of {self.steps:,} steps"
-        unit = METRICS[self.metric].unit
         failed = len(self.failures)
         return Sheet(
-            head=f"{self.scenario}: {runs}, seed {self.seed}; {self.metric} [{unit}], {better}",
+            head=f"{self.scenario}: {runs}, seed {self.seed}; {label_of(self.metric)}, {better}",
             titles=("condition", *titles) if several else titles,
             rows=[
                 (condition.name, *_cells(each)) if several else _cells(each)

@@ -117,8 +117,8 @@ def _described(result: FleetFront) -> str:
     first, last = result.front[0], result.front[-1]
     less, more = result.search.less.words, result.search.more.words
     return (
-        f"{more} against {less}: from {first.more.mean:.3g} for {first.less.mean:,.6g} to {last.more.mean:.3g} for "
-        f"{last.less.mean:,.6g}"
+        f"{more} against {less}: from {spread(first.more)} for {spread(first.less, exact=True)} to {spread(last.more)} "
+        f"for {spread(last.less, exact=True)}"
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from shoal.experiments.exchange_rate import ExchangeRate
 from shoal.experiments.fleet_front import Alternative, FleetFront
 from shoal.experiments.front import Spread
-from shoal.record.words import decimals_of, spread_text
+from shoal.record.words import UNKNOWN, told
 
 
 def sentences(result: FleetFront) -> list[str]:
@@ -40,7 +40,7 @@ def exchange(result: FleetFront) -> Iterator[str]:
             continue
         price, cheap = costs[fleet], costs[result.base]
         told = f"One {names[fleet]} is worth {_short(rate.worth)} {base} here "
-        told += f"(95 %: {_short(rate.low)} to {_short(rate.high)})"
+        told += f"(95 %: [{_short(rate.low)}, {_short(rate.high)}])"
         if not price or not cheap:
             yield f"{told}."
             continue
@@ -83,12 +83,10 @@ def amount(value: float) -> str:
 def spread(value: Spread, *, exact: bool = False) -> str:
     """A mean and its interval; `exact`: a number without one is a cost."""
     if not np.isfinite(value.mean):
-        return "none"
+        return UNKNOWN
     if exact and value.low == value.high:
         return amount(value.mean)
-    decimals = decimals_of(value.mean)
-    ends = (value.low, value.high) if np.isfinite([value.low, value.high]).all() else (None, None)
-    return f"{value.mean:.{decimals}f}{spread_text(value.mean, ends[0], ends[1], decimals)}"
+    return told(value.mean, value.low, value.high)
 
 
 def _dominated(result: FleetFront) -> str:

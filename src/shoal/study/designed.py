@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     import pandas
     from matplotlib.figure import Figure
 
+    from shoal.drawing.style import Width
+
 
 @dataclass(frozen=True, repr=False)
 class Designed:
@@ -82,8 +84,13 @@ class Designed:
             "failed": [each.reason for several in result.tried.values() for each in several if each.reason],
         }  # fmt: skip
 
-    def plot(self) -> "Figure":
-        """Draw the front: cost against metric, with intervals (extra: plots)."""
+    def plot(self, width: "Width" = "double") -> "Figure":
+        """Draw the front: cost against metric, with intervals (extra: plots).
+
+        Parameters
+        ----------
+        width : of one column of a journal (single), or of two (double)
+        """
         from shoal.drawing.front import Place, front_figure
 
         search = self.result.search
@@ -93,7 +100,8 @@ class Designed:
             for each in self.alternatives
         ]  # fmt: skip
         tried = [each.means for several in self.result.tried.values() for each in several if each.known]
-        return front_figure(places, tried, (search.less.words, search.more.words), " + ".join(names_of(self.result)))
+        labels = search.less.words, search.more.words
+        return front_figure(places, tried, labels, " + ".join(names_of(self.result)), width)
 
     def report(self, file: str | Path) -> None:
         """Write one self-contained HTML page for whoever buys; one of Shoal's of this name is replaced (extra: plots).

@@ -1,14 +1,14 @@
 """Publication-ready figures of records and sweeps: SVG, PNG or PDF, one look, safe for color-blind readers.
 
 Each function takes the data and returns a matplotlib Figure that no window knows; with `axes` it draws there instead,
-in our look, and returns the figure of those (extra: plots; films: video).
+in our look, without a title of ours, and returns the figure of those (extra: plots; films: video).
 
 >>> import shoal
 >>> record = shoal.open_record("DIR")
 >>> shoal.plot.save(shoal.plot.snapshot(record, links=True), "snapshot.svg")
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,28 +16,29 @@ import numpy as np
 
 from shoal.core.errors import RecordError, ScenarioError, did_you_mean, no_attribute
 from shoal.core.text import plain
-from shoal.drawing.arena import arena_aspect
 from shoal.drawing.arena_drawing import Parts
 from shoal.drawing.curves import Curve, draw_batches
 from shoal.drawing.files import save_figure
 from shoal.drawing.film import Film, FilmLook, write_film
 from shoal.drawing.footage import current_record
 from shoal.drawing.histogram import draw_phi_histogram
-from shoal.drawing.layout import snapshot_size
-from shoal.drawing.legend import legend_height, map_legend_height, short_name
+from shoal.drawing.legend import legend_height, map_legend_height, name_lines
 from shoal.drawing.snapshot import draw_snapshot, frames_of
 from shoal.drawing.stretch import frame_of
-from shoal.drawing.style import new_figure, style
+from shoal.drawing.style import Width, lettered, new_figure, style, width_of
 from shoal.drawing.summary import summary_figure
 from shoal.drawing.sweep import draw_sweep, sweep_page
+from shoal.drawing.titles import entitle
 from shoal.drawing.trajectory_map import draw_trajectory_map
-from shoal.drawing.words import field_words
+from shoal.drawing.words import field_value, field_words
 from shoal.experiments.results import aggregate, default_x, varied_rows
 from shoal.experiments.rows import Row
 from shoal.metrics.summary import METRICS
 from shoal.record.files import open_record
+from shoal.record.names import label_of
 from shoal.record.record import Record
 from shoal.run.simulation import Simulation
+from shoal.study.pages import BELOW_PHI, LEFT, NARROWEST, RIGHT, TALL, TOP, arena_page, chart_page, drawn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -69,10 +70,6 @@ if not TYPE_CHECKING:  # hidden from type checkers, which know the names
 
 
 AnyRecord = Record | str | Path
-Page = tuple[tuple[float, float, float, float], float, float]  # [inch] axes; room right of and above them
-_PHI = (0.62, 0.74, 3.6, 2.3)  # [inch] left, bottom, width and height of a histogram alone
-_CHART = (0.62, 0.48, 3.6, 2.3)  # of a chart with one line of labels below
-_TOP, _RIGHT = 0.35, 0.2
 
 
 def snapshot(
@@ -105,8 +102,9 @@ def snapshot(
     record = current_record(what) if isinstance(what, Simulation) else _record(what)
     run = _run(record, run)
     frame = -1 if step is None else frame_of(np.asarray(frames_of(record, run).step), step)
-    size = _arena_page(record, lambda width: legend_height(record, width, halos=halos, sensors=sensors))
-    return _drawn(axes, size, lambda into: draw_snapshot(into, record, run, frame, links, trail, halos, sensors))
+    parts = Parts(links, halos=halos, sensors=sensors)
+    size = arena_page(record, lambda width: legend_height(record, width, halos=halos, sensors=sensors))
+    return drawn(axes, size, lambda into: draw_snapshot(into, record, run, frame, trail, parts))
 
 
 def trajectory_map(
@@ -134,12 +132,15 @@ def trajectory_map(
     """
     record = _record(record)
     run = _run(record, run)
-    size = _arena_page(record, lambda width: map_legend_height(record, width))
-    return _drawn(axes, size, lambda into: draw_trajectory_map(into, record, run, start, steps, every))
+    size = arena_page(record, lambda width: map_legend_height(record, width))
+    return drawn(axes, size, lambda into: draw_trajectory_map(into, record, run, start, steps, every))
 
 
 def phi_histogram(
-    records: AnyRecord | Sequence[AnyRecord] | Mapping[str, AnyRecord], *, axes: "Axes | None" = None
+    records: AnyRecord | Sequence[AnyRecord] | Mapping[str, AnyRecord],
+    *,
+    axes: "Axes | None" = None,
+    width: Width | None = None,
 ) -> "Figure":
     """Headings relative to the target, Eq. 8: `plot.phi_histogram({"k = 10": low, "k = 40": high})`.
 
@@ -147,23 +148,27 @@ def phi_histogram(
     ----------
     records : a record or its folder; or several, side by side on one scale, named by the keys or by their scenarios
     axes : of one record only
+    width : of one column of a journal (single), or of two (double); default single of one record, double of several
     """
     if isinstance(records, (Record, str, Path)):
         record = _record(records)
-        return _drawn(axes, (_PHI, _RIGHT, _TOP), lambda into: draw_phi_histogram(into, record))
+        return drawn(axes, chart_page(width or "single", BELOW_PHI), lambda into: draw_phi_histogram(into, record))
     named = records.items() if isinstance(records, Mapping) else [(None, each) for each in records]
     panels = [(name, _record(each)) for name, each in named]
     if axes is not None or not panels:
         raise RecordError("records", f"are {len(panels)}", "give one record to draw into axes, and one or more without")
     with style():
-        left, bottom, width, height = _PHI
-        across, tall = len(panels) * (left + width) + _RIGHT, bottom + height + _TOP
-        figure = new_figure(across, tall)
+        across = width_of(width or "double")
+        columns = max(1, min(len(panels), int((across - RIGHT) / NARROWEST)))
+        wide, rows = (across - RIGHT) / columns - LEFT, -(-len(panels) // columns)
+        tall = BELOW_PHI + TALL + TOP
+        figure = new_figure(across, rows * tall)
         for number, (name, record) in enumerate(panels):
-            at = number * (left + width) + left
-            panel = figure.add_axes((at / across, bottom / tall, width / across, height / tall))
+            row, column = divmod(number, columns)
+            at, bottom = column * (LEFT + wide) + LEFT, (rows - row - 1) * tall + BELOW_PHI
+            panel = figure.add_axes((at / across, bottom / (rows * tall), wide / across, TALL / (rows * tall)))
             draw_phi_histogram(panel, record)
-            panel.set_title(short_name(name or record.scenario.name))
+            entitle(panel, f"{lettered(number)} {name_lines(name or record.scenario.name, 60)}")
         scaled = [panel for panel in figure.axes if len(panel.get_yticks())]  # the others had no target
         tallest = max(scaled or figure.axes, key=lambda panel: panel.get_ylim()[1])
         for panel in scaled:
@@ -172,16 +177,17 @@ def phi_histogram(
     return figure
 
 
-def time_on_target(record: AnyRecord, *, axes: "Axes | None" = None) -> "Figure":
+def time_on_target(record: AnyRecord, *, axes: "Axes | None" = None, width: Width = "single") -> "Figure":
     """Time on target over the course of each run, its mean and interval: `plot.time_on_target(record)`.
 
     Parameters
     ----------
     record : a record or its folder
     axes : matplotlib axes to draw into, in our look; default: a new figure
+    width : of that figure: one column of a journal (single), or two (double)
     """
     record = _record(record)
-    return _drawn(axes, (_CHART, _RIGHT, _TOP), lambda into: draw_batches(into, record))
+    return drawn(axes, chart_page(width), lambda into: draw_batches(into, record))
 
 
 def curves(
@@ -191,6 +197,7 @@ def curves(
     y: str = "time_on_target",
     hue: str | None = None,
     axes: "Axes | None" = None,
+    width: Width = "single",
 ) -> "Figure":
     """A metric of a sweep against a field, with bands of the 95 % interval: `plot.curves("k-sweep", x="neighbors")`.
 
@@ -201,6 +208,7 @@ def curves(
     y : metric on the vertical axis
     hue : field that makes one curve per value; default the next field that varies
     axes : matplotlib axes to draw into, in our look; default: a new figure
+    width : of that figure: one column of a journal (single), or two (double)
 
     Raises
     ------
@@ -220,22 +228,28 @@ def curves(
         )
     made: dict[Any, Curve] = {}
     for group in aggregate(rows, names, [y]):
-        label = plain(f"{hue} {group[hue]}".replace("_", " ")) if hue else ""
+        label = plain(field_value(hue, group[hue])) if hue else ""
         curve = made.setdefault(label, Curve(label))
         curve.add(group[x], group[y], group[f"{y}_low"], group[f"{y}_high"])
     if not made:
         raise ScenarioError(
             "results", "hold no run that ended well", "see the column error, fix the cause and run them again"
         )
-    labels = field_words(x), METRICS[y].words, METRICS[y].unit
+    labels = field_words(x), label_of(y)
     if axes is None:
-        return sweep_page(list(made.values()), *labels)
-    return _drawn(axes, (_CHART, _RIGHT, _TOP), lambda into: draw_sweep(into, list(made.values()), *labels))
+        return sweep_page(list(made.values()), *labels, width)
+    return drawn(axes, chart_page(width), lambda into: draw_sweep(into, list(made.values()), *labels, inside=True))
 
 
-def summary(record: AnyRecord) -> "Figure":
-    """A record on one page, as `shoal run --figure` draws it: `plot.summary(record)`."""
-    return summary_figure(_record(record))
+def summary(record: AnyRecord, *, width: Width = "double") -> "Figure":
+    """A record on one page, as `shoal run --figure` draws it: `plot.summary(record)`.
+
+    Parameters
+    ----------
+    record : a record or its folder
+    width : of one column of a journal (single), or of two (double)
+    """
+    return summary_figure(_record(record), width)
 
 
 def save(figure: "Figure", path: str | Path) -> None:
@@ -267,26 +281,3 @@ def _record(what: AnyRecord) -> Record:
 def _run(record: Record, run: int | None) -> int:
     """The run asked for, or the first that kept a trajectory."""
     return min(record.trajectories, default=0) if run is None else run
-
-
-def _arena_page(record: Record, legend: Callable[[float], float]) -> Page:
-    """Where the arena is on a page of its own [inch], and the room right of and above it."""
-    width, height = snapshot_size(arena_aspect(record.scenario.area))
-    return (0.62, 0.55, width, height), 0.15, 0.3 + legend(width)
-
-
-def _drawn(
-    axes: "Axes | None",
-    page: Page,
-    draw: "Callable[[Axes], None]",
-) -> "Figure":
-    """Draw into axes, or into new ones on a page that fits them."""
-    with style():
-        if axes is None:
-            (left, bottom, width, height), right, top = page
-            across, tall = left + width + right, bottom + height + top
-            axes = new_figure(across, tall).add_axes((left / across, bottom / tall, width / across, height / tall))
-        draw(axes)
-        figure = axes.get_figure(root=True)
-        assert figure is not None  # axes have one
-        return figure

@@ -14,8 +14,9 @@ from shoal.experiments.results import aggregate, seal
 from shoal.experiments.rows import Row
 from shoal.experiments.sweep import Stop
 from shoal.experiments.sweep import sweep as run_sweep
+from shoal.record.names import label_of
 from shoal.record.tables import data_frame
-from shoal.record.words import spread_text
+from shoal.record.words import told
 from shoal.scenario.edit import check_words
 from shoal.scenario.load import Source, load
 from shoal.study.folder import positive, progress_of, store_folder
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
     import pandas
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from shoal.drawing.style import Width
 
 RUNS = 5
 SHOWN = ("time_on_target", "xi", "engaged")
@@ -75,10 +78,15 @@ class Swept:
         return data_frame(tables[what](), "a sweep as a DataFrame")
 
     def plot(
-        self, x: str | None = None, y: str = "time_on_target", hue: str | None = None, axes: "Axes | None" = None
+        self,
+        x: str | None = None,
+        y: str = "time_on_target",
+        hue: str | None = None,
+        axes: "Axes | None" = None,
+        width: "Width" = "single",
     ) -> "Figure":
         """Draw a metric against a field with bands of the 95 % interval, as shoal.plot.curves (extra: plots)."""
-        return curves(self.rows, x=x, y=y, hue=hue, axes=axes)
+        return curves(self.rows, x=x, y=y, hue=hue, axes=axes, width=width)
 
     def __repr__(self) -> str:
         """The table."""
@@ -94,7 +102,7 @@ class Swept:
         failed = [error.splitlines()[0] for error in self.failures]
         return Sheet(
             head=f"{self.scenario}: {combinations} combinations, {len(self.rows)} runs",
-            titles=(*self.fields, "runs", *SHOWN),
+            titles=(*self.fields, "runs", *map(label_of, SHOWN)),
             rows=[
                 (
                     *(str(group[name]) for name in self.fields),
@@ -103,9 +111,7 @@ class Swept:
                 )
                 for group in groups
             ],
-            note=f"{len(failed)} runs failed, the first: {failed[0]}"
-            if failed
-            else "means ± half of a 95 % interval, or its ends",
+            note=f"{len(failed)} runs failed, the first: {failed[0]}" if failed else "means [95 % intervals over runs]",
         )
 
 
@@ -173,5 +179,4 @@ def sweep(scenario: Source, vary: Mapping[str, Values], **changes: Any) -> Swept
 
 
 def _mean(group: Row, name: str) -> str:
-    low, high = group[f"{name}_low"], group[f"{name}_high"]
-    return f"{group[name]:.4f}{spread_text(group[name], low, high, 4)}"
+    return told(group[name], group[f"{name}_low"], group[f"{name}_high"])

@@ -9,13 +9,15 @@ from shoal.experiments.start import value_of
 from shoal.experiments.tune import TuneResult
 from shoal.record.statistics import Estimate
 from shoal.record.tables import data_frame
-from shoal.record.words import interval_text, mean_text, spread_text
+from shoal.record.words import difference_text, interval_text, mean_text, told
 from shoal.scenario.schema import Scenario
 from shoal.study.searching import shown
 
 if TYPE_CHECKING:
     import pandas
     from matplotlib.figure import Figure
+
+    from shoal.drawing.style import Width
 
 
 @dataclass(frozen=True, repr=False)
@@ -68,8 +70,13 @@ class Tuned:
         return data_frame([{**self.start, **trial.point, "mean": trial.mean, "runs": list(trial.values),
                               "reason": trial.reason} for trial in trials], "a search as a DataFrame")  # fmt: skip
 
-    def plot(self) -> "Figure":
-        """Draw the value of every trial, and that of start and best on fresh seeds (extra: plots)."""
+    def plot(self, width: "Width" = "double") -> "Figure":
+        """Draw the value of every trial, and that of start and best on fresh seeds (extra: plots).
+
+        Parameters
+        ----------
+        width : of one column of a journal (single), or of two (double)
+        """
         from shoal.drawing.search import Measured, search_figure
 
         result = self.result
@@ -78,7 +85,7 @@ class Tuned:
             for name, value in (("start", result.start_value), ("best", result.winner_value))
         ]
         at = result.trials.index(result.winner)
-        return search_figure([each.mean for each in result.trials], at, measured, result.search.objective.words)
+        return search_figure([each.mean for each in result.trials], at, measured, result.search.objective.words, width)
 
     def to_dict(self) -> dict[str, Any]:
         """Return all of it as `shoal tune --json` prints it."""
@@ -117,7 +124,7 @@ class Tuned:
             titles=("", "start", "best"),
             rows=[
                 *((name, shown(start[name]), shown(best[name])) for name in start),
-                ("in the search", f"{result.start.mean:.4f}", f"{result.winner.mean:.4f}"),
+                ("in the search", told(result.start.mean), told(result.winner.mean)),
                 ("on fresh seeds", *map(mean_text, values)),
                 ("95 % interval", *map(interval_text, values)),
             ],
@@ -128,17 +135,16 @@ class Tuned:
     def _sentences(self) -> list[str]:
         result = self.result
         failed = [each.reason for each in result.trials if each.reason]
-        told = [f"{len(failed)} trials have no value, the first: {failed[0]}"] if failed else []
+        failures = [f"{len(failed)} trials have no value, the first: {failed[0]}"] if failed else []
         if result.winner is result.start:
-            return [*told, "no trial was better than the start"]
+            return [*failures, "no trial was better than the start"]
         gap = result.difference
-        low, high = gap.ci95 or (None, None)
-        ends = spread_text(gap.mean, low, high, 4)
+        ends = difference_text(gap.mean, *(gap.ci95 or (None, None)))
         p = "" if gap.p is None else f", p {gap.p:.2g}"
         return [
-            *told,
-            f"best - start, {gap.pairs} pairs of runs on fresh seeds: {gap.mean:+.4f}{ends}{p}: {result.verdict}",
-            f"the search made the best look {abs(result.flattered):.4f} "
+            *failures,
+            f"best - start, {gap.pairs} pairs of runs on fresh seeds: {ends}{p}: {result.verdict}",
+            f"the search made the best look {told(abs(result.flattered))} "
             f"{'better' if result.flattered >= 0 else 'worse'} than it is (winner's curse): trust the fresh seeds",
         ]
 

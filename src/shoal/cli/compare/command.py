@@ -27,6 +27,7 @@ def compare(
     device: Literal["cpu", "cuda"] = "cpu",
     out: Path | None = None,
     figure: Path | None = None,
+    width: Literal["single", "double"] = "double",
     markdown: Path | None = None,
     json_: Annotated[bool, Parameter(name="--json", negative=())] = False,
 ) -> None:
@@ -65,6 +66,8 @@ def compare(
         Keep all runs in this folder, a store like any sweep's; the same command again resumes.
     figure
         Draw bars, or curves if one number varies, to this file (.png, .svg or .pdf).
+    width
+        Of the figure: one column of a journal (single, 3.5 in) or two (double, 7.16 in).
     markdown
         With --suite, write the leaderboard into this page, between its two markers.
     json_
@@ -84,7 +87,7 @@ def compare(
         compare_strategies(
             strategies, scenario or SCENARIO, runs=runs, steps=steps, seed=seed, vary=vary or [],
             assignments=assignments or [], metric=metric or METRIC, baseline=baseline, jobs=jobs,
-            device=device, out=out,            figure=figure, as_json=json_,
+            device=device, out=out, figure=figure, width=width, as_json=json_,
         )  # fmt: skip
         return
     fixed = {"--scenario": scenario, "--vary": vary, "--set": assignments, "--metric": metric, "--baseline": baseline}
@@ -93,5 +96,5 @@ def compare(
             raise ScenarioError(name, f"does not go with --suite: {suite} has its own", "leave out one of the two")
     compare_suite(
         strategies, suite, runs=runs, steps=steps, seed=seed, jobs=jobs, device=device, out=out, figure=figure,
-        markdown=markdown, as_json=json_,
+        width=width, markdown=markdown, as_json=json_,
     )  # fmt: skip

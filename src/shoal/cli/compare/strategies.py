@@ -3,6 +3,7 @@
 import json
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Literal
 
 from shoal.cli.compare.runs import tell_failures
 from shoal.cli.output import write
@@ -25,6 +26,7 @@ def compare_strategies(
     device: str,
     out: Path | None,
     figure: Path | None,
+    width: Literal["single", "double"],
     as_json: bool,
 ) -> None:
     """Run what is missing, and print a table per condition."""
@@ -57,7 +59,7 @@ def compare_strategies(
     if figure:
         from shoal.drawing.files import save_figure
 
-        save_figure(found.plot(), figure)
+        save_figure(found.plot(width), figure)
         note(f"figure: {figure}")
     if out:
         note(f"all runs: {out} (shoal results {out})")

@@ -4,6 +4,7 @@ import json
 import time
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Literal
 
 from shoal.cli.compare.runs import tell_failures
 from shoal.cli.output import write
@@ -22,6 +23,7 @@ def compare_suite(
     device: str,
     out: Path | None,
     figure: Path | None,
+    width: Literal["single", "double"],
     markdown: Path | None,
     as_json: bool,
 ) -> None:
@@ -65,6 +67,6 @@ def compare_suite(
     if figure:
         from shoal.drawing.files import save_figure
 
-        save_figure(leaderboard_figure(board), figure)
+        save_figure(leaderboard_figure(board, width), figure)
         note(f"figure: {figure}")
     note(f"{time.monotonic() - begun:.0f} s" + (f"; all runs: a sweep per condition in {out}" if out else ""))

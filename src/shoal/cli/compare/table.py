@@ -6,7 +6,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from shoal.cli.console import results_console, styled
+from shoal.cli.console import print_table, results_console, styled
 from shoal.experiments.comparison import Comparison, Condition, Standing
 from shoal.experiments.comparison_words import (
     REFERENCES,
@@ -20,6 +20,7 @@ from shoal.experiments.comparison_words import (
 from shoal.experiments.contenders import LATTICE
 from shoal.experiments.leaderboard import Leaderboard
 from shoal.metrics.summary import METRICS
+from shoal.record.names import label_of
 
 _Column = tuple[str, Callable[[Standing], str]]
 
@@ -31,12 +32,9 @@ def print_comparison(comparison: Comparison, metric: str, direction: int, about:
     runs = f"{about['runs']} run{'s' * (about['runs'] > 1)}"
     text = f": {runs} of {about['steps']:,} steps, seed {about['seed']}"
     console.print(styled(about["scenario"], "bold") + styled(text, ""))
-    unit = METRICS[metric].unit
-    console.print(
-        f"{metric.replace('_', ' ')}{'' if unit == '1' else f' [{unit}]'}: {METRICS[metric].sentence}; {words}"
-    )
+    console.print(f"{label_of(metric)}: {METRICS[metric].sentence}; {words}")
     columns = [
-        (metric.replace("_", " "), value_text),
+        (METRICS[metric].words, value_text),
         (f"minus {comparison.baseline}", difference_text),
         ("adj. p", lambda each: p_text(each.adjusted_p)),
         ("verdict", lambda each: each.verdict),
@@ -45,7 +43,7 @@ def print_comparison(comparison: Comparison, metric: str, direction: int, about:
         console.print()
         if condition.name:
             console.print(styled(condition.name, "bold"))
-        console.print(_table(condition, columns))
+        print_table(console, _table(condition, columns))
         if direction:
             ranked = sum(each.rank is not None for each in condition.standings)
             console.print(f"standing still ({LATTICE}) ranks {rank_text(condition.of(LATTICE))} of {ranked}")
@@ -72,9 +70,9 @@ def print_leaderboard(board: Leaderboard) -> None:
         ("adj. p", lambda each: p_text(each.adjusted_p)),
         ("verdict", lambda each: each.verdict),
     ]
-    console.print(_table(board.overall, columns))
+    print_table(console, _table(board.overall, columns))
     console.print("\nshare under each condition; + better, − worse than standing still; no sign: no difference shown\n")
-    console.print(_shares(board))
+    print_table(console, _shares(board))
     family = f"all comparisons of scores ({board.score.tests}) together, and for all of shares ({board.shares.tests})"
     _print_notes(console, family, board.overall)
 
