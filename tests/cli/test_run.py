@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from commands import shoal, wait_until
+from shoal.metrics.summary import METRICS
 from shoal.scenario.load import scenario_from, to_toml
 
 SHARED = Path(__file__).resolve().parents[2] / ".." / "shared" / "data"
@@ -72,17 +73,30 @@ class TestTable:
         lines = {}
         for columns in (80, 200):
             monkeypatch.setenv("COLUMNS", str(columns))
-            _, out, _ = shoal(capsys, "run", *self.SCENARIO, "--set", "network.loss=0.1")
-            lines[columns] = [line.rstrip() for line in out.splitlines()]
+            _, out, _ = shoal(capsys, "run", *self.SCENARIO, "--set", "network.loss=0.1", "--all")
+            lines[columns] = printed = out.splitlines()
         assert max(map(len, lines[80])) <= 80
         assert lines[80][:-1] == lines[200][:-1]  # but for the seconds that it took
+        assert not any(line.endswith(" ") for line in printed)
 
     def test_fleets_and_changes_have_rows_under_a_heading(self, capsys):
-        _, out, _ = shoal(capsys, "run", *self.SCENARIO)
+        _, out, _ = shoal(capsys, "run", *self.SCENARIO, "--all")
         headings = ["fleet BoB-1", "fleet BoB-0", "step 1,000: 25 lost", "phi histogram, agents"]
         begins = [out.index(heading) for heading in headings]
         assert begins == sorted(begins)
         assert "  recovery" in out[begins[2] :]
+
+    def test_begins_with_a_sentence_and_shows_eight_metrics(self, capsys):
+        _, out, _ = shoal(capsys, "run", *self.SCENARIO, "--out", "r")
+        assert out.startswith("The target was watched ")
+        words = [each.words for each in METRICS.values()]
+        assert sum(any(line.startswith(f"{name}  ") for name in words) for line in out.splitlines()) == 8
+        more = "--all shows 12 more metrics, each fleet, each change of the swarm, where agents head"
+        assert more in " ".join(out.split())
+        assert "docs/reference/metrics.md" in out
+        assert shoal(capsys, "show", "r")[1].splitlines()[:-1] == out.splitlines()[:-1]
+        everything = shoal(capsys, "show", "r", "--all")[1]
+        assert sum(any(line.startswith(f"{name}  ") for name in words) for line in everything.splitlines()) == 20
 
     def test_what_differs_between_fleets_is_told_of_each(self, capsys):
         _, out, _ = shoal(
@@ -175,6 +189,8 @@ class TestListings:
     def test_presets_strategies_scenario_check_and_schema(self, capsys):
         assert "aamas2020-constant" in shoal(capsys, "presets")[1]
         assert "knn-pso" in shoal(capsys, "strategies")[1]
+        assert "reacquisition [s]" in shoal(capsys, "metrics")[1]
+        assert [each["name"] for each in json.loads(shoal(capsys, "metrics", "--json")[1])] == list(METRICS)
         listed = json.loads(shoal(capsys, "strategies", "--json")[1])
         assert next(each for each in listed if each["name"] == "knn-pso")["parameters"]["delta"]["unit"] == "m"
         assert [each["name"] for each in listed if each["recommended"]] == ["cordon"]

@@ -8,11 +8,11 @@ from shoal.drawing.histogram import draw_phi_histogram
 
 
 class TestPhiHistogram:
-    """11 bins of their true widths, fleets stacked."""
+    """11 bins of their true widths, densities of the fleets stacked."""
 
-    def test_all_bars_sum_to_the_number_of_agents(self, axes, make_record):
+    def test_the_areas_of_all_bars_sum_to_the_number_of_agents(self, axes, make_record):
         draw_phi_histogram(axes, make_record(counts=(3, 2, 7)))
-        assert sum(bar.get_height() for bar in axes.patches) == pytest.approx(12.0)
+        assert sum(bar.get_height() * bar.get_width() for bar in axes.patches) == pytest.approx(12.0)
 
     def test_bars_cover_minus_one_to_one_and_the_outer_two_are_half_as_wide(self, axes, make_record):
         draw_phi_histogram(axes, make_record(counts=(3,)))
@@ -26,13 +26,13 @@ class TestPhiHistogram:
             tally.histogram[:, 1] = tally.histogram[:, 1, ::-1]
             tally.histogram[:, 1, 0] = 1
         draw_phi_histogram(axes, record)
-        assert axes.patches[11].get_y() == pytest.approx(3.0)
+        assert axes.patches[11].get_y() == pytest.approx(3.0 / 0.1)
 
     def test_the_legend_is_above_the_highest_bar(self, axes, make_record):
         draw_phi_histogram(axes, make_record(counts=(3, 2)))
         axes.figure.draw_without_rendering()
         legend = axes.get_legend().get_window_extent()
-        assert axes.transData.inverted().transform(legend)[0, 1] >= 3.0
+        assert axes.transData.inverted().transform(legend)[0, 1] >= 3.0 / 0.1
 
     def test_a_record_in_which_no_target_was_ever_there_says_so(self, axes, make_record):
         draw_phi_histogram(axes, make_record(present=0.0))

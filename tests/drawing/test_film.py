@@ -114,7 +114,7 @@ class TestFrames:
         record.trajectories[0].target_y[...] = 0.0
         record.trajectories[0].target_y[-1] = 5.0
         before, after = (pixels(record, number, Parts(trails=False)).astype(int) for number in (38, 39))
-        differ = np.argwhere(np.abs(before - after).max(axis=2)[70:-14] > 0)  # between legend and strip
+        differ = np.argwhere(np.abs(before - after).max(axis=2)[70:-28] > 0)  # between legend and strip
         rows, columns = differ.min(axis=0), differ.max(axis=0)
         meter = 240 / 20
         assert columns[0] - rows[0] == pytest.approx(7 * meter, abs=0.15 * 7 * meter)  # 5 m, and a radius of 1 m each
@@ -126,7 +126,7 @@ class TestFrames:
         frames = record.trajectories[0]
         (frames.alive if absent == "agents" else frames.target_present)[-1] = False
         colors = {"agents": (0x00, 0x72, 0xB2), "target": (0xD5, 0x5E, 0x00)}
-        arena = pixels(record, 39, Parts(trails=False), width=300)[100:-14, :, :3]
+        arena = pixels(record, 39, Parts(trails=False), width=300)[100:-28, :, :3]
         seen = {name: bool((arena == color).all(axis=2).any()) for name, color in colors.items()}
         assert seen == {name: name != absent for name in colors}
 

@@ -7,6 +7,7 @@ import pytest
 
 from shoal.core.errors import RecordError
 from shoal.drawing.arena import round_length
+from shoal.drawing.arena_drawing import Parts
 from shoal.drawing.snapshot import draw_snapshot
 from shoal.drawing.trails import consecutive
 
@@ -43,12 +44,14 @@ class TestAgents:
     def test_links_are_drawn_when_asked_for(self, axes, make_record, marks):
         links = np.zeros((40, 5, 1), np.uint8)
         links[-1, 0], links[-1, 1], links[-1, 4] = 0b00110, 0b00001, 0b00001  # 0 hears 1 and 2; 1 and 4 hear 0
-        draw_snapshot(axes, with_frames(make_record(counts=(3, 2)), links=links), links=True)
+        draw_snapshot(axes, with_frames(make_record(counts=(3, 2)), links=links), parts=Parts(links=True))
         assert len(marks(axes, "links")[0].get_segments()) == 3  # a line where both hear each other, too
 
     def test_links_that_were_not_kept_are_not_made_up(self, axes, make_record):
         with pytest.raises(RecordError, match="keep no links"):
-            draw_snapshot(axes, with_frames(make_record(), links=np.zeros((40, 5, 0), np.uint8)), links=True)
+            draw_snapshot(
+                axes, with_frames(make_record(), links=np.zeros((40, 5, 0), np.uint8)), parts=Parts(links=True)
+            )
 
     def test_no_links_otherwise(self, axes, make_record, marks):
         draw_snapshot(axes, make_record())

@@ -120,5 +120,5 @@ def test_the_worst_case_is_the_lowest_or_the_furthest_from_the_aim():
 
 def test_words():
     assert str(count(cases(True, True, None, False))) == "2 true, 1 open, 1 false"
-    assert case_text(Case("k = 2", Interval(1.25, 1.0, 1.5), True), " %") == "1.2 [1.0, 1.5] % (k = 2)"
-    assert case_text(Case("k = 2", Interval(1.25, math.nan, math.nan), None)) == "1.2 (k = 2)"
+    assert case_text(Case("k = 2", Interval(1.25, 1.0, 1.5), True), " %") == "1.25 [1.00, 1.50] % (k = 2)"
+    assert case_text(Case("k = 2", Interval(1.25, math.nan, math.nan), None)) == "1.25 (k = 2)"

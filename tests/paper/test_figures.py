@@ -7,6 +7,7 @@ import pytest
 
 from shoal.core.errors import MissingExtraError
 from shoal.drawing.files import save_figure
+from shoal.drawing.style import TARGET
 from shoal.paper.figures import make_aamas_figures, make_figures, make_study_figures
 from shoal.paper.figures_series import TIME_ON_TARGET, plain_rows, series, spread, where
 from shoal.paper.plan import VARIANTS
@@ -111,9 +112,9 @@ class TestFiguresOfThePaper:
 
 
 class TestNumbersBehindThem:
-    def test_shares_are_means_over_seeds_in_percent(self, figures):
+    def test_shares_are_means_over_seeds(self, figures):
         (row,) = where(figures["tot_share"].data, neighbors=20, target_speed=3.0, fast=30)
-        assert row["mean"] == pytest.approx(100 * (0.76 - 2e-4 * 4 + 0.001))
+        assert row["mean"] == pytest.approx(0.76 - 2e-4 * 4 + 0.001)
         assert row["low"] < row["mean"] < row["high"]
         assert row["runs"] == 3
 
@@ -125,6 +126,24 @@ class TestNumbersBehindThem:
 
     def test_xi_is_shown_with_and_without_norm(self, figures):
         assert {row["quantity"] for row in figures["xi_share"].data} == {"velocity fluctuation Ξ", "Ξ not normalized"}
+
+    def test_a_peak_is_marked_where_it_is(self, figures):
+        (peak,) = where(figures["tot_k"].data, quantity="time on target at its peak", fast=15, target_speed=3.0)
+        (place,) = where(figures["tot_k"].data, quantity="k of the peak of time on target", fast=15, target_speed=3.0)
+        points = [line.get_xydata()[0].tolist() for line in figures["tot_k"].figure.axes[0].lines
+                  if len(line.get_xdata()) == 1]  # fmt: skip
+        assert pytest.approx([place["mean"], peak["mean"]]) in points
+
+    def test_panels_have_letters(self, figures):
+        titles = [axes.get_title("left") for axes in figures["tot_k"].figure.axes]
+        assert titles == ["(a) Target 3 m/s", "(b) Target 5 m/s"]
+
+    def test_nothing_but_the_target_has_its_color(self, figures):
+        from matplotlib.colors import to_hex
+
+        for name in ("tot_share", "xi_share", "tot_k", "xi_k", "sides", "sensitivity_3"):
+            lines = [line for axes in figures[name].figure.axes for line in axes.lines]
+            assert TARGET.lower() not in {to_hex(line.get_color()) for line in lines}
 
     def test_bars_of_every_histogram_sum_to_all_agents(self, figures):
         data = [row for row in figures["phi_histograms"].data if row.get("agents") == "all" and "phi" in row]
@@ -181,10 +200,10 @@ class TestLittleData:
         assert math.isnan(points.low[0])
         assert points.runs == (1,)
 
-    def test_intervals_of_shares_end_at_0_and_100_percent(self):
+    def test_intervals_of_shares_end_at_0_and_1(self):
         rows = [run_of(15, 20, 3.0, run, time_on_target=value) for run, value in enumerate((0.0, 1.0))]
         points = series(rows, "neighbors", TIME_ON_TARGET)
-        assert (points.low[0], points.high[0]) == pytest.approx((0.0, 100.0), abs=1e-6)
+        assert (points.low[0], points.high[0]) == pytest.approx((0.0, 1.0), abs=1e-6)
 
     def test_spread_keeps_what_must_be_shown(self):
         assert spread(range(50), 4, 20) == [0, 20, 33, 49]
@@ -196,7 +215,7 @@ class TestPublished:
         (figure,) = make_aamas_figures(aamas())
         assert figure.name == "published"
         residuals = where(figure.data, source="measured less published", quantity="time on target")
-        assert [row["mean"] for row in residuals] == pytest.approx([1.0] * 4)
+        assert [row["mean"] for row in residuals] == pytest.approx([0.01] * 4)
         assert {row["source"] for row in figure.data} == {
             "measured, adaptive repulsion", "measured, constant repulsion", "published",
             "measured less published", "tolerance",

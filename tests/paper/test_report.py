@@ -187,22 +187,22 @@ class TestNumbers:
     @pytest.mark.parametrize(
         ("value", "low", "high", "text"),
         [
-            (0.83176, 0.8291, 0.8352, "0.832 [0.829, 0.835]"),
+            (0.83176, 0.8291, 0.8352, "0.8318 [0.8291, 0.8352]"),
             (-0.5, -1.81, 0.73, "−0.5 [−1.8, 0.7]"),
             (75.0, 50.0, 130.0, "75 [50, 130]"),
             (18.0, 18.0, 18.0, "18 [18, 18]"),
-            (0.5, NAN, NAN, "0.5000"),
+            (0.5, NAN, NAN, "0.500"),
         ],
     )
     def test_show_the_digits_that_their_interval_lets_stand(self, value, low, high, text):
         assert interval_text(value, low, high).replace("\u00a0", " ") == text
 
-    def test_alone_have_four_digits(self):
+    def test_alone_have_three_digits(self):
         assert [number_text(each) for each in (20, 20.0, -0.00355, 3.14159, NAN)] == [
             "20",
             "20",
-            "−0.0036",
-            "3.142",
+            "−0.00355",
+            "3.14",
             "–",
         ]
 

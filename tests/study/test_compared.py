@@ -62,9 +62,9 @@ class TestLooks:
 
     def test_a_row_per_standing(self, found):
         lines = repr(found).splitlines()
-        assert lines[0] == "oceans2020: 3 runs of 200 steps, seed 1; time_on_target [1], more is better"
+        assert lines[0] == "oceans2020: 3 runs of 200 steps, seed 1; time on target [share], more is better"
         assert lines[1].split() == [
-            "condition", "strategy", "time_on_target", "minus", "knn-pso", "adj.", "p", "verdict",
+            "condition", "strategy", "time", "on", "target", "minus", "knn-pso", "adj.", "p", "verdict",
         ]  # fmt: skip
         assert sum("lattice" in line for line in lines) == 2
         assert found._repr_html_().count("<tr>") == 1 + 6

@@ -7,7 +7,7 @@ import shoal
 from scenarios import fleets, scenario
 from shoal import plot
 from shoal.core.errors import RecordError, ScenarioError, ShoalError
-from shoal.drawing.style import new_figure, style
+from shoal.drawing.style import GRID, new_figure, style
 
 pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install '.[plots]'")
 
@@ -96,6 +96,37 @@ class TestAxesOfOnesOwn:
     def test_curves_too(self, axes):
         assert plot.curves(rows(), axes=axes) is axes.figure
         assert axes.get_xlabel() == "neighbors, k"
+        assert axes.get_ylabel() == "time on target [share]"
+
+    @pytest.mark.parametrize("figure", [name for name in FIGURES if name != "summary"])
+    def test_their_titles_stay_and_there_is_none_of_ours(self, records, axes, figure):
+        axes.set_title("(a)", loc="left", fontsize=13.0)
+        axes.set_title("mine")
+        FIGURES[figure](records["one run"], axes=axes)
+        assert [axes.get_title(loc) for loc in ("left", "center", "right")] == ["(a)", "mine", ""]
+        assert next(each for each in axes.get_children() if getattr(each, "get_text", str)() == "(a)").get_size() == 13
+
+    def test_no_legend_is_above_them_or_wider(self, records):
+        from matplotlib.figure import Figure
+
+        figure = Figure(figsize=(7.16, 3.0), layout="constrained")
+        left, right = figure.subplots(1, 2)
+        plot.curves(rows(), axes=left)
+        plot.snapshot(records["several fleets and targets"], axes=right)
+        figure.draw_without_rendering()
+        for axes in (left, right):
+            legend = axes.get_legend().get_window_extent()
+            assert legend.y1 <= axes.bbox.y1
+            assert legend.x1 <= figure.bbox.x1
+        assert right.get_legend().get_window_extent().y1 < right.bbox.y0
+
+    def test_they_get_our_grid(self):
+        from matplotlib.colors import to_hex
+        from matplotlib.figure import Figure
+
+        axes = Figure().add_subplot()  # made by somebody with other settings
+        plot.curves(rows(), axes=axes)
+        assert to_hex(axes.xaxis.get_gridlines()[0].get_color()) == GRID
 
 
 class TestSnapshot:
@@ -166,7 +197,7 @@ class TestPhiHistogram:
     def test_several_records_share_a_scale_and_are_named(self, records):
         one, other = records["one run"], records["several fleets and targets"]
         left, right = plot.phi_histogram({"few": one, "many": other}).axes
-        assert (left.get_title("left"), right.get_title("left")) == ("few", "many")
+        assert (left.get_title("left"), right.get_title("left")) == ("(a) few", "(b) many")
         assert left.get_ylim() == right.get_ylim()
         assert list(left.get_yticks()) == list(right.get_yticks())
 
@@ -178,10 +209,27 @@ class TestPhiHistogram:
 class TestCurves:
     def test_a_curve_per_value_of_the_other_field_through_the_means(self):
         (axes,) = plot.curves(rows()).axes
-        assert axes.get_legend_handles_labels()[1] == ["fast 0", "fast 15"]
+        assert axes.get_legend_handles_labels()[1] == ["0 fast agents", "15 fast agents"]
         line = next(line for line in axes.lines if len(line.get_xdata()) == 3)
         assert line.get_xdata().tolist() == [10, 20, 30]
         assert line.get_ydata() == pytest.approx([0.101, 0.201, 0.301])
+
+    @pytest.mark.parametrize(("width", "inches"), [("single", 3.5), ("double", 7.16)])
+    def test_a_figure_is_as_wide_as_a_column_or_two(self, records, width, inches):
+        for figure in (
+            plot.curves(rows(), width=width), plot.summary(records["several runs"], width=width),
+            plot.time_on_target(records["one run"], width=width), plot.phi_histogram(records["one run"], width=width),
+            plot.phi_histogram([records["one run"]] * 3, width=width),
+        ):  # fmt: skip
+            assert figure.get_figwidth() == inches
+
+    def test_another_width_is_refused(self):
+        with pytest.raises(ShoalError, match="single, double"):
+            plot.curves(rows(), width="wide")
+
+    def test_its_axes_say_name_and_unit(self):
+        (axes,) = plot.curves(rows(reacquisition=2.0), y="reacquisition", x="fast").axes
+        assert (axes.get_xlabel(), axes.get_ylabel()) == ("fast agents", "reacquisition [s]")
 
     def test_a_dataframe_is_rows_too(self):
         pandas = pytest.importorskip("pandas", reason="pandas is not installed")

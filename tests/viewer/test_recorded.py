@@ -99,8 +99,8 @@ class TestRecordedScene:
         value = record.estimate("time_on_target")
         assert told["time_on_target"] == {
             "name": "time_on_target",
-            "label": record.metrics["time_on_target"].words,
-            "unit": "1",
+            "label": "time on target",
+            "unit": "share",
             "sentence": record.metrics["time_on_target"].sentence,
             "least": 0.0,
             "most": 1.0,

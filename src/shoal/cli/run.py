@@ -105,7 +105,7 @@ def run(
     if scenario.endswith(SUFFIX):
         asked_of_log = [*changes.values(), target_track, track_id, assignments]
         refuse_changes(scenario, asked_of_log, runs=runs, device=device)
-        tell(make_again(scenario, every, out), out, figure, json_)
+        tell(make_again(scenario, every, out), out, figure, json_, width=width, everything=all_)
         return
     table = edited_table(scenario, changes, assignments or [], target_track, track_id)
     chosen = scenario_from(table, where=scenario)

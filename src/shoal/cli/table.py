@@ -75,9 +75,9 @@ def _setup(record: Record) -> Text:
 
 
 def _print_headings(console: Console, record: Record) -> None:
-    """The histogram of phi, as numbers of agents."""
+    """The histogram of phi, as numbers of agents in each bin."""
     histogram = record.phi_histogram().sum(axis=0)
-    console.print("phi histogram, agents per step from -1 (away) to +1 (toward); the outer two bins are half as wide:")
+    console.print("phi histogram, agents per step from -1 (away) to +1 (toward):")
     console.print("  " + " ".join(f"{agents:.2f}" for agents in histogram))
 
 
@@ -88,10 +88,11 @@ def _notes(record: Record, listed: Sequence[str], everything: bool) -> Iterator[
     if short:
         yield f"too short for an interval of {short}: more steps or more runs determine it"
     method = "over runs" if len(record.tallies) > 1 else "by batch means"
-    yield f"intervals are {method}; the run{'s' * (len(record.tallies) > 1)} took {record.provenance['seconds']:.3g} s"
+    yield f"intervals are {method}"
     if not everything:
         yield f"--all shows {', '.join(_left_out(record, listed))}"
-    yield "shoal metrics says what each means (docs/reference/metrics.md)"
+    took = f"the run{'s' * (len(record.tallies) > 1)} took {record.provenance['seconds']:.3g} s"
+    yield f"shoal metrics says what each means (docs/reference/metrics.md); {took}"
 
 
 def _left_out(record: Record, listed: Sequence[str]) -> Iterator[str]:

@@ -169,10 +169,10 @@ class FilmPage:
                             facecolor=tuple(_STRIP_COLORS[kind] / 255), transform=self.figure.transFigure)  # fmt: skip
             self.figure.add_artist(box)
             self.figure.text((x + 0.12) / width, (_EDGE + 0.025) / height, _KEYS[kind], fontsize=6.5, color=GRAY)
-            x += 0.3 + 0.055 * len(_KEYS[kind])
+            x += 0.25 + 0.05 * len(_KEYS[kind])
 
 
-_KEYS = ("no target there", "nobody on target", "somebody on target")
+_KEYS = ("no target", "not on target", "on target")
 
 
 def _rgb(color: str) -> npt.NDArray[np.uint8]:

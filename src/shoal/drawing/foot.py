@@ -27,4 +27,4 @@ def draw_foot(figure: "Figure", text: str) -> None:
 
 
 def _lines(text: str, width: float) -> list[str]:
-    return textwrap.wrap(text, int((width - 2 * _EDGE) / _LETTER))
+    return textwrap.wrap(text, int((width - 2 * _EDGE) / _LETTER), break_on_hyphens=False)

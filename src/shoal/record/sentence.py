@@ -38,15 +38,16 @@ def _percent(share: Estimate) -> str:
 def _lost(record: Record, one: str) -> str:
     """How often, and for how long; nothing where it was not measured."""
     losses, again = record.estimate("losses"), record.estimate("reacquisition")
-    if not math.isfinite(losses.mean):
+    if not _measured(record, "losses") or not math.isfinite(losses.mean):
         return ""
     if losses.mean == 0:
         return f"; once found, {one} was never lost"
     text = f"; {one} was lost {_with_unit(losses, 'times an hour')}"
+    if not _measured(record, "reacquisition"):
+        return text
     if math.isfinite(again.mean):
         return f"{text}, for {_with_unit(again, 's')} each time"
-    asked = not record.scenario.metrics or "reacquisition" in record.scenario.metrics
-    return f"{text} and never found again" if asked and all(map(math.isnan, again.runs)) else text
+    return f"{text} and never found again" if all(map(math.isnan, again.runs)) else text
 
 
 def _with_unit(value: Estimate, unit: str) -> str:
@@ -59,4 +60,9 @@ def _found(record: Record, during: str) -> str:
     """In how many runs it was found at all, where that was not in every one."""
     found = record.estimate("found").runs
     known = sum(map(bool, found))
-    return f"; it was found in {known} of {during}" if known < len(found) and not any(map(math.isnan, found)) else ""
+    return f"; it was found in {known} of {during}" if _measured(record, "found") and known < len(found) else ""
+
+
+def _measured(record: Record, name: str) -> bool:
+    """Whether a metric is one of those that the scenario asks for."""
+    return not record.scenario.metrics or name in record.scenario.metrics
