@@ -10,6 +10,7 @@ import numpy as np
 from shoal.drawing.curves import Curve, draw_curve
 from shoal.drawing.foot import draw_foot, foot_height
 from shoal.drawing.legend import legend_above, legend_room
+from shoal.drawing.margins import keep_on_page
 from shoal.drawing.style import (
     FLEET_COLORS,
     GRAY,
@@ -145,6 +146,7 @@ def curves_figure(
         axes.set_xlabel(labels[0])
         axes.set_ylabel(labels[1])
         axes.grid(visible=True)
+        keep_on_page(axes)
         if beside:
             axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.02), borderaxespad=0.1, handlelength=2.6)
         else:

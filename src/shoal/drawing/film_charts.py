@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _LEFT, _RIGHT = 0.72, 0.3  # [inch] room for a y label, page margin
-_TOP, _BOTTOM, _BETWEEN = 0.88, 0.66, 1.05
+_TOP, _BOTTOM, _BETWEEN = 0.88, 0.82, 1.02
 
 
 class Charts:

@@ -8,6 +8,7 @@ import numpy as np
 
 from shoal.drawing.foot import draw_foot, foot_height
 from shoal.drawing.legend import legend_above, legend_room
+from shoal.drawing.margins import keep_on_page
 from shoal.drawing.style import GRAY, INK, LINE_COLORS, Width, new_figure, style, width_of
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ _FRONT, _OWN, _TRIED = LINE_COLORS[0], LINE_COLORS[2], "#8f8f8f"
 _THOUSANDS = 5000.0  # costs from which their labels are whole, with commas
 _SIGNS = ("tried", "dominated for sure", "behind, by its mean", "on the front", "own fleet")
 _LABELED = 7  # points of the front that are named
-_LEFT = 0.1  # of the width: where there is room for a name left of its point
+_BESIDE = 0.1  # of the width: where there is room for a name left of its point
 _APART = 0.055  # of the height: names are not closer
 
 
@@ -83,6 +84,7 @@ def front_figure(
         if axes.get_xlim()[1] >= _THOUSANDS:
             axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
         axes.grid(visible=True)
+        keep_on_page(axes)
         _name(axes, best)
         legend_above(axes)
         draw_foot(figure, note)
@@ -114,7 +116,7 @@ def _name(axes: "Axes", best: Sequence[Place]) -> None:
         if best[at].more - last < _APART * (top - bottom):
             continue
         last = best[at].more
-        left = best[at].less > _LEFT * axes.get_xlim()[1]
+        left = best[at].less > _BESIDE * axes.get_xlim()[1]
         text = axes.annotate(
             best[at].name, (best[at].less, best[at].more), xytext=(-5, 4) if left else (6, -9),
             textcoords="offset points", ha="right" if left else "left", fontsize=7.5, color=INK, zorder=4,

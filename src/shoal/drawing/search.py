@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from shoal.drawing.foot import draw_foot, foot_height
+from shoal.drawing.margins import keep_on_page
 from shoal.drawing.style import GRAY, INK, LINE_COLORS, Width, lettered, new_figure, style, width_of
 from shoal.drawing.titles import entitle
 
@@ -71,5 +72,6 @@ def search_figure(
         side.tick_params(axis="y", labelleft=False)
         for each_axes in (axes, side):
             each_axes.grid(axis="y")
+        keep_on_page(axes)
         draw_foot(figure, _NOTE)
     return figure

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 from shoal.drawing.curves import Curve, draw_curve
 from shoal.drawing.foot import draw_foot, foot_height
 from shoal.drawing.legend import legend_above, legend_room
+from shoal.drawing.margins import keep_on_page
 from shoal.drawing.style import Width, fleet_marker, line_color, new_figure, style, width_of
 
 if TYPE_CHECKING:
@@ -26,7 +27,9 @@ def sweep_page(curves: list[Curve], x_label: str, y_label: str, width: Width = "
         height = bottom + tall + legend_room([curve.label for curve in curves], wide) + _TOP
         figure = new_figure(page, height)
         box = (_LEFT / page, bottom / height, wide / page, tall / height)
-        draw_sweep(figure.add_axes(box), curves, x_label, y_label)
+        axes = figure.add_axes(box)
+        draw_sweep(axes, curves, x_label, y_label)
+        keep_on_page(axes)
         draw_foot(figure, _NOTE)
     return figure
 
