@@ -16,6 +16,10 @@ describe("Words", () => {
 
   it("show two digits of an interval's half-width", () => {
     assert.deepEqual(estimate(0.82987, 0.82397, 0.83577), { mean: "0.8299", interval: "[0.8240, 0.8358]" });
+    assert.deepEqual(estimate(1394.2, 1365.3, 1423.6), { mean: "1\u2009394", interval: "[1\u2009365, 1\u2009424]" });
+    assert.deepEqual(estimate(123456, 121000, 126000), { mean: "123\u2009500", interval: "[121\u2009000, 126\u2009000]" });
+    assert.equal(estimate(200, null, null).mean, "200");
+    assert.equal(estimate(0.81234, null, null).mean, "0.812");
   });
 
   it("choose the unit of a time", () => {
