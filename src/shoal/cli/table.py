@@ -91,8 +91,8 @@ def _notes(record: Record, listed: Sequence[str], everything: bool) -> Iterator[
     yield f"intervals are {method}"
     if not everything:
         yield f"--all shows {', '.join(_left_out(record, listed))}"
-    took = f"the run{'s' * (len(record.tallies) > 1)} took {record.provenance['seconds']:.3g} s"
-    yield f"shoal metrics says what each means (docs/reference/metrics.md); {took}"
+    yield "shoal metrics says what each means (docs/reference/metrics.md)"
+    yield f"the run{'s' * (len(record.tallies) > 1)} took {record.provenance['seconds']:.3g} s"
 
 
 def _left_out(record: Record, listed: Sequence[str]) -> Iterator[str]:

@@ -10,6 +10,7 @@ TITLE = 0.3  # above an axes
 BELOW_CURVES, BELOW_HISTOGRAM, BELOW_SNAPSHOT = 0.42, 0.7, 0.48  # room for ticks and x label
 GUTTER = 0.68  # between columns, y label of the right one included
 SNAPSHOT = 3.3  # height beside the charts
+WIDEST = 3.35  # width beside the charts
 TALLEST = 5.0  # height of a snapshot on a narrow page
 NARROWEST = 2.2  # column of a snapshot beside the charts
 CHART = 1.55  # height of a chart below the snapshot
@@ -35,8 +36,9 @@ class Boxes(NamedTuple):
 
 def snapshot_size(aspect: float, page: float = DOUBLE) -> tuple[float, float]:
     """Width and height [inch] of a snapshot whose arena is `aspect` times as wide as high, on a page of a width."""
-    room = page - LEFT - RIGHT
-    highest = TALLEST if page < DOUBLE or aspect > WIDE else SNAPSHOT
+    beside = page >= DOUBLE and aspect <= WIDE
+    room = WIDEST if beside else page - LEFT - RIGHT
+    highest = SNAPSHOT if beside else TALLEST
     width = min(room, highest * aspect)
     return width, width / aspect
 

@@ -39,8 +39,8 @@ def exchange(result: FleetFront) -> Iterator[str]:
             yield f"What was tried does not tell how many {base} one {names[fleet]} is worth."
             continue
         price, cheap = costs[fleet], costs[result.base]
-        told = f"One {names[fleet]} is worth {_short(rate.worth)} {base} here "
-        told += f"(95 %: [{_short(rate.low)}, {_short(rate.high)}])"
+        interval = f"[{_short(rate.low)}, {_short(rate.high)}]"
+        told = f"One {names[fleet]} is worth {_short(rate.worth)} {interval} {base} here"
         if not price or not cheap:
             yield f"{told}."
             continue
