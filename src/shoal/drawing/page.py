@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from shoal.drawing.style import style
 
-DPI = 110
+DPI = 150
 
 
 class Page(Figure):
