@@ -60,7 +60,7 @@ def reproduce(
 def _print_claims(found: "Reproduction") -> None:
     from rich.table import Table
 
-    from shoal.cli.console import results_console, small_print
+    from shoal.cli.console import print_table, results_console, small_print
 
     console = results_console()
     table = Table(box=None, padding=(0, 2, 0, 0))
@@ -73,7 +73,7 @@ def _print_claims(found: "Reproduction") -> None:
         verdicts = [small_print(each.verdict, each.cases.replace(", ", "\n")) for each in judged]
         measured = "\nrefit: ".join(each.measured for each in judged)
         table.add_row(claim.id, *verdicts, small_print(claim.statement, measured))
-    console.print(table)
+    print_table(console, table)
     differ = [claim.id for claim in found.claims if claim.id in others and claim.verdict != others[claim.id].verdict]
     if others:
         console.print(f"verdicts that depend on the reading: {', '.join(differ) or 'none'}")
@@ -83,7 +83,7 @@ def _print_claims(found: "Reproduction") -> None:
 def _print_readings(found: "Reproduction") -> None:
     from rich.table import Table
 
-    from shoal.cli.console import results_console
+    from shoal.cli.console import print_table, results_console
 
     console = results_console()
     table = Table(box=None, padding=(0, 2, 0, 0))
@@ -93,7 +93,7 @@ def _print_readings(found: "Reproduction") -> None:
     for row in scores:
         mark = "chosen" if row["chosen"] else "as printed" if row["printed"] else ""
         table.add_row(row["reading"], row["trial"], str(row["hold"]), str(row["do_not"]), f"{row['score']:g}", mark)
-    console.print(table)
+    print_table(console, table)
     _print_length(console, found)
 
 

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from shoal.drawing.style import lettered, line_color, new_figure, style
 from shoal.experiments.rows import Row
+from shoal.metrics.summary import Bounds
 from shoal.paper.curves import curve, intervals, values_of
 from shoal.paper.figures_series import DOUBLE, TIME_ON_TARGET
 from shoal.paper.plan import MIXED
@@ -61,10 +62,8 @@ def _draw(axes: "Axes", reading: str, rows: Sequence[Row], names: Sequence[str])
             found = curve(mine, "time_on_target", fast=MIXED, target_speed=speed)
             if _NEIGHBORS not in found.x:
                 continue
-            at, low, high = intervals(list(found.runs.T))[list(found.x).index(_NEIGHBORS)]
-            axes.plot(
-                [max(low, 0.0), min(high, 1.0)], [line - shift] * 2, color=color, linewidth=1.6, solid_capstyle="butt"
-            )
+            at, low, high = intervals(list(found.runs.T), Bounds(0.0, 1.0))[list(found.x).index(_NEIGHBORS)]
+            axes.plot([low, high], [line - shift] * 2, color=color, linewidth=1.6, solid_capstyle="butt")
             axes.plot([at], [line - shift], marker, color=color, markersize=4)
             place = {"reading": reading, "setting": name, "target_speed": speed}
             data.append({**place, "unit": TIME_ON_TARGET.unit, "value": at, "low": low, "high": high})
