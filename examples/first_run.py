@@ -4,5 +4,5 @@ import shoal
 
 record = shoal.simulate("oceans2020", steps=5000, runs=5)
 mean, interval, runs = record.estimate("time_on_target")
-print(f"time on target {mean:.3f}, 95 % interval {interval[0]:.3f} to {interval[1]:.3f} over {len(runs)} runs")
+print(f"time on target {mean:.3f} [{interval[0]:.3f}, {interval[1]:.3f}], a 95 % interval over {len(runs)} runs")
 print("agents per step from away (-1) to toward (+1):", record.phi_histogram().sum(axis=0).round(2))

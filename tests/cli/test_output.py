@@ -1,11 +1,14 @@
 """One rule for output: a result that cannot be printed is an error, whatever else cannot be told is none."""
 
+import io
 import os
 import signal
 import subprocess
 import sys
 
 import pytest
+
+from shoal.cli.output import guarded_stdout
 
 COMMAND = [sys.executable, "-m", "shoal"]
 RUN = [*COMMAND, "run", "oceans2020", "--steps", "40"]
@@ -82,3 +85,22 @@ class TestInterrupt:
         assert (process.returncode, out) == (130, "")
         assert "shoal: interrupted" in err
         assert "Traceback" not in err
+
+
+class TestEncodings:
+    """A terminal or a pipe that knows few letters."""
+
+    @pytest.mark.parametrize(
+        ("encoding", "text"),
+        [
+            ("utf-8", "Ξ [−0.1, 0.2] m²/s – 浮"),
+            ("latin-1", "Xi [-0.1, 0.2] m^2/s - ?"),
+            ("ascii", "Xi [-0.1, 0.2] m^2/s - ?"),
+        ],
+    )
+    def test_signs_that_it_lacks_are_spelled(self, encoding, text, monkeypatch):
+        stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
+        monkeypatch.setattr(sys, "stdout", stream)
+        with guarded_stdout():
+            print("Ξ [−0.1, 0.2] m²/s – 浮", end="")
+        assert stream.buffer.getvalue() == text.encode(encoding)

@@ -9,6 +9,7 @@ from typing import Any, TextIO, cast
 from shoal.core.text import plain
 
 CANNOT_PRINT = 1
+_SPELLED = str.maketrans({"\u039e": "Xi", "\u03c6": "phi", "\u2212": "-", "\u2013": "-", "²": "^2", "³": "^3"})
 
 
 def tell(message: str) -> None:
@@ -30,6 +31,15 @@ def write(text: str) -> None:
     sys.stdout.write(plain(text, "\r\n\t"))
 
 
+def encodable(text: str, encoding: str) -> str:
+    """The text as an encoding can hold it: signs that it lacks are spelled, in letters or as question marks."""
+    try:
+        text.encode(encoding)
+    except UnicodeEncodeError:
+        return text.translate(_SPELLED).encode(encoding, "replace").decode(encoding)
+    return text
+
+
 class CannotPrintError(Exception):
     """A result that stdout does not take; it says why."""
 
@@ -45,7 +55,7 @@ class _Guarded:
 
     def write(self, text: str) -> int:
         with _own_error():
-            return self._stream.write(text)
+            return self._stream.write(encodable(text, self._stream.encoding or "utf-8"))
 
     def flush(self) -> None:
         with _own_error():
