@@ -102,5 +102,5 @@ class TestEncodings:
         stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
         monkeypatch.setattr(sys, "stdout", stream)
         with guarded_stdout():
-            print("Ξ [−0.1, 0.2] m²/s – 浮", end="")
+            sys.stdout.write("Ξ [−0.1, 0.2] m²/s – 浮")
         assert stream.buffer.getvalue() == text.encode(encoding)
