@@ -36,3 +36,8 @@ def test_what_is_none_is_refused(texts, told):
 def test_those_of_the_arena_need_an_arena_of_its_size():
     with pytest.raises(ScenarioError, match="is of an arena of 20 m x 20 m"):
         conditions_of(["half lost"], "time_on_target", load("bay"))
+
+
+def test_one_of_the_wide_arena_may_be_another_scenario():
+    (bay,) = conditions_of(["bay"], "time_on_target", SCENARIO)
+    assert (bay.scenario, bay.steps) == ("bay", 360)  # 7200 of 20,000 steps, as 1000 here

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.experiments.suite import SuiteCondition, read_suite, resized
@@ -9,7 +10,7 @@ from shoal.scenario.edit import parse_assignment
 from shoal.scenario.load import load
 from shoal.scenario.schema import Scenario
 
-ARENA = "arena"
+ARENA = "arena-wide"  # it has all conditions of the arena, and more
 AS_IT_IS = "as-it-is"
 _SHARE = "time_on_target"  # asked for under a condition of the arena, what counts there is asked for
 
@@ -46,11 +47,9 @@ def _condition(text: str, metric: str, scenario: Scenario) -> SuiteCondition:
         names = [AS_IT_IS, *(each.name for each in suite.conditions)]
         fix = f"{did_you_mean(text, names)}there are: {', '.join(names)}; or FIELD=VALUE,FIELD=VALUE"
         raise ScenarioError(f"--condition {text}", "is not a condition", fix)
-    area = load(suite.scenario).area
-    if (scenario.area.width, scenario.area.height) != (area.width, area.height):
-        problem = f"is of an arena of {area.width:g} m x {area.height:g} m, and this scenario is not"
-        raise ScenarioError(f"--condition {text}", problem, "say it in its fields: FIELD=VALUE,FIELD=VALUE")
     chosen = known[text]
-    if metric == _SHARE:
-        return chosen
-    return SuiteCondition(chosen.name, chosen.says, metric, changes=chosen.changes)
+    area, there = scenario.area, load(chosen.scenario or suite.scenario).area
+    if chosen.scenario is None and (area.width, area.height) != (there.width, there.height):
+        problem = f"is of an arena of {there.width:g} m x {there.height:g} m, and this scenario is not"
+        raise ScenarioError(f"--condition {text}", problem, "say it in its fields: FIELD=VALUE,FIELD=VALUE")
+    return chosen if metric == _SHARE else replace(chosen, metric=metric, out_of=1.0)

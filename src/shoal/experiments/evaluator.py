@@ -15,6 +15,7 @@ from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.cells import Cell, base_table
 from shoal.experiments.design import Design, Point
 from shoal.experiments.executors import Executor, Task
+from shoal.experiments.followed import followed_point
 from shoal.experiments.rows import Row
 from shoal.experiments.store import Store
 from shoal.experiments.suite import SuiteCondition
@@ -22,6 +23,7 @@ from shoal.experiments.sweep import Progress, store_all
 from shoal.scenario.change import change
 from shoal.scenario.edit import apply, lower_degrees
 from shoal.scenario.load import Source, name_of_source, scenario_from, table_of
+from shoal.scenario.schema import Scenario
 
 Rows = list[list[Row]]  # of a point: by condition, of each run
 
@@ -53,13 +55,16 @@ class Evaluator:
         self.steps = 0  # of all runs that were asked for, whenever they were run
         self._name = name_of_source(scenario)
         self._execute, self._report, self._start = executor, report, start
-        table = table_of(scenario)
+        self._searched = change(table_of(scenario), changes)
         self._places: list[tuple[dict[str, Any], Store]] = []
         for each in conditions:
-            design = Design(scenario, (start,), 1)
+            source = each.scenario or scenario
             said = {**changes, **each.changes}
+            if each.scenario:
+                said = {"seed": self._searched["seed"], **said, "steps": each.steps or self._searched["steps"]}
             place = folder / each.folder if len(conditions) > 1 else folder
-            self._places.append((change(table, said), Store(place, _identity(design, said))))
+            identity = _identity(Design(source, (start,), 1), said)
+            self._places.append((change(table_of(source), said), Store(place, identity)))
         self._rows: list[dict[str, Row]] = []
         self._counted: set[str] = set()
         self._open = ExitStack()
@@ -78,11 +83,20 @@ class Evaluator:
     def cells(self, point: Point) -> list[Cell]:
         """The scenario of a point under every condition; a k of more than all others is lowered to them.
 
+        Lengths and times of a strategy that are varied are those of the searched scenario, see `followed_point`.
+
         Raises
         ------
         ScenarioError : it cannot run
         """
-        return [cell_of(base, point, self._name) for base, _ in self._places]
+        return [self._cell(base, point) for base, _ in self._places]
+
+    def _cell(self, base: dict[str, Any], point: Point) -> Cell:
+        def at(table: dict[str, Any]) -> Callable[[], Scenario]:
+            return lambda: cell_of(table, point, self._name).scenario
+
+        cell = cell_of(base, followed_point(point, at(self._searched), at(base)), self._name)
+        return Cell({**cell.point, **point, **_lowered(point, cell.scenario)}, cell.scenario)
 
     def evaluate(self, points: Sequence[Sequence[Cell]], runs: int) -> list[Rows]:
         """Run what is missing of the cells of points, and return their rows.
@@ -124,8 +138,11 @@ def cell_of(base: dict[str, Any], point: Point, name: str) -> Cell:
         lower_degrees(table, sum(count for count in counts if isinstance(count, int)))
     values = ", ".join(f"{field}={value}" for field, value in point.items())
     scenario = scenario_from(table, where=f"{name} ({values})" if values else name)
-    shown = {"neighbors": scenario.network.neighbors} if isinstance(point.get("neighbors"), int) else {}
-    return Cell({**point, **shown}, scenario)
+    return Cell({**point, **_lowered(point, scenario)}, scenario)
+
+
+def _lowered(point: Point, scenario: Scenario) -> Point:
+    return {"neighbors": scenario.network.neighbors} if isinstance(point.get("neighbors"), int) else {}
 
 
 def _changes_counts(point: Point) -> bool:

@@ -2,7 +2,7 @@
 
 import re
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import resources
 from pathlib import Path
@@ -15,9 +15,13 @@ from shoal.experiments.comparison import Values
 from shoal.experiments.contenders import Contender
 from shoal.experiments.design import Design, Point
 from shoal.experiments.executors import Executor
+from shoal.experiments.followed import followed_point
 from shoal.experiments.rows import Row
 from shoal.experiments.run_comparison import comparison_design, run_comparison, values_of
 from shoal.experiments.sweep import Progress
+from shoal.scenario.change import change
+from shoal.scenario.load import scenario_from, table_of
+from shoal.scenario.schema import Scenario
 
 Found = dict[str, dict[str, list[Row | None]]]  # by condition and strategy, the row of each run
 
@@ -59,8 +63,18 @@ class Suite:
         return {**condition.changes, "steps": condition.steps or self.steps, "seed": self.seed}
 
     def design(self, condition: SuiteCondition, contenders: Sequence[Contender]) -> Design:
-        """Every contender in the scenario of a condition."""
-        return comparison_design(condition.scenario or self.scenario, contenders, self.runs)
+        """Every contender in the scenario of a condition, which what is said of its parameters follows."""
+        suited = [replace(each, said=self._followed(each, condition)) for each in contenders]
+        return comparison_design(condition.scenario or self.scenario, suited, self.runs)
+
+    def _followed(self, contender: Contender, condition: SuiteCondition) -> Mapping[str, Any]:
+        def at(source: str, changes: Point) -> Callable[[], Scenario]:
+            return lambda: scenario_from(change(table_of(source), {**changes, "strategy": contender.choice}))
+
+        said = {f"strategy.{name}": value for name, value in contender.said.items()}
+        there = at(condition.scenario or self.scenario, self.changes(condition))
+        found = followed_point(said, at(self.scenario, {}), there)
+        return {field.removeprefix("strategy."): value for field, value in found.items()}
 
     def cells(self, contenders: Sequence[Contender]) -> list[Cell]:
         """Every scenario that the suite runs."""
