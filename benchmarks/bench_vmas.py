@@ -21,7 +21,7 @@ import shoal
 from shoal.learn.env import Observe, VectorEnv
 
 sys.path.insert(0, str(Path(__file__).parent / "peers"))
-from vmas_env import AGENTS, K, Swarm  # noqa: E402
+from vmas_env import AGENTS, K, Swarm
 
 SWARMS, STEPS = (24, 256, 1024), 12  # steps of a stretch
 

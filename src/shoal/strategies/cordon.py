@@ -8,10 +8,10 @@ pushed apart by its neighbors. What is new, so that one set of numbers serves sl
    the cover is drawn in and agents run home to it; against one that strays there, it reaches out, and agents stay where
    they lost the target, spread by their neighbors like a gas.
 2. Haste: a target found to be fast is met by more agents, which keep farther apart.
-3. Who waits is pushed by neighbors anyway, so that the holes of lost agents close.
-4. Trust: one bit alone, maybe a false alarm, is believed for a part of the patience; each further step adds to it.
-5. An agent that hears few neighbors, or whose body does not obey at once, holds to its station; and it slows down in
-   time for what acceleration it saw itself reach.
+3. Who waits is pushed by neighbors anyway, so that the holes of lost agents close; on a chart, whose stations lie where
+   water is, it is not. Where the reach is more than agents need to cover the area, they stay where they are, too.
+4. An agent whose body does not obey at once holds to its station, and slows down in time for what acceleration it saw
+   itself reach.
 
 How each part pays, and when it fails: docs/explanation/beyond-the-paper.md.
 """
@@ -33,9 +33,6 @@ class Cordon(NamedTuple):
     gap: Annotated[
         Meters, Follows("reach"), Range(), Doc("agents on the ring push each other when nearer than this")
     ] = 2.24
-    room: Annotated[
-        Meters, Follows("spacing"), Range(), Doc("nor do they when farther apart than this: where agents are many")
-    ] = 2.5
     push: Annotated[float, Range(), Doc("how strongly, as a share of the distance to the neighbor")] = 0.38
     lead: Annotated[
         float, Range(), Doc("share of the time to get there by which the ring is ahead of the estimate")
@@ -52,9 +49,6 @@ class Cordon(NamedTuple):
     patience: Annotated[
         Seconds, Follows("reach"), Range(), Doc("after so long without contact agents forget the estimate")
     ] = 1.0
-    trust: Annotated[
-        float, Range(0.0, 1.0), Doc("share of what is missing to full patience that a step of contact adds")
-    ] = 0.74
     learn: Annotated[
         float, Range(0.0, 1.0), Doc("share of a correction along the path that goes into the estimated speed")
     ] = 0.05
@@ -78,14 +72,14 @@ class Cordon(NamedTuple):
         8.0
     )
     home_far: Annotated[float, Range(), Doc("the same where the target roams")] = 0.73
+    full: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("with a reach of more, agents cover the area wherever they wait")
+    ] = 1.25
     span: Annotated[
         Meters, Follows("spacing"), Range(open=True), Doc("agents that wait push each other when nearer than this")
     ] = 4.1
     spread: Annotated[float, Range(), Doc("how strongly, as a share of the top speed")] = 2.0
     spread_far: Annotated[float, Range(), Doc("the same where the target roams")] = 3.3
-    company: Annotated[
-        float, Range(open=True), Doc("an agent that hears fewer neighbors than this holds to its station")
-    ] = 6.0
     nimble: Annotated[
         Seconds, Follows("reach"), Range(), Doc("so does one that takes longer than this to its top speed")
     ] = 0.48
@@ -104,8 +98,7 @@ def influence(me, other, params):
     dx = me.x - other.x
     dy = me.y - other.y
     square = dx * dx + dy * dy
-    gap = min(params.gap, params.room)
-    near = gap * gap
+    near = params.gap * params.gap
     far = params.span * params.span
     ring = max(0.0, near / (square + (_SOFTENING * near + _NOTHING)) - 1.0)
     cover = max(0.0, far / (square + (_SOFTENING * far + _NOTHING)) - 1.0)
@@ -117,19 +110,18 @@ def decide(me, heard, memory, params, draw):
     _feel(me, memory)
     _believe(me, heard, memory, params)
     quick = min(memory.agility * params.nimble / me.max_speed, 1.0) if memory.agility > 0.0 else 1.0
-    able = quick * min(heard.neighbors / params.company, 1.0)
-    far = able * min(max(memory.roam / params.roaming - 1.0, 0.0), 1.0)
+    far = quick * _roams(me, memory, params)
     home_x, home_y = _home(me, memory, _between(params.inset, params.inset_far, far))
     away_x = home_x - memory.x
     away_y = home_y - memory.y
     away = math.sqrt(away_x * away_x + away_y * away_y) + so_near(me)
-    fresh = me.time - memory.contact < params.patience * memory.trust
+    fresh = me.time - memory.contact < params.patience
     swift = min(max(memory.speed * params.haste / max(me.briefing.reach, so_near(me)), 1.0), _SWIFTEST)
     chase = swift * swift * params.chase * quick * me.max_speed / memory.speed
     if not fresh or away >= chase:
         share = me.max_speed * me.time_step / params.span
-        pull = share * _between(params.home, params.home_far, far) / max(able, 0.01)
-        push = share * _between(params.spread, params.spread_far, far) * able
+        pull = share * _between(params.home, params.home_far, far) / max(quick, 0.01)
+        push = 0.0 if me.briefing.charted else share * _between(params.spread, params.spread_far, far) * quick
         return _braked(
             me,
             memory,
@@ -167,14 +159,18 @@ def _believe(me, heard, memory, params):
     known = me.time - memory.contact <= params.patience
     if known:
         move_on(me, memory, params.beyond)
-    else:
-        memory.trust = 0.0
-    contact = me.on_target or heard.found
-    if contact:
-        memory.trust += params.trust * (1.0 - memory.trust)
+    if me.on_target or heard.found:
         edge = max(abs(memory.x) - me.briefing.half_x, abs(memory.y) - me.briefing.half_y) > -params.edge
         memory.roam += min(me.time_step / params.survey, 1.0) * ((1.0 if edge else 0.0) - memory.roam)
     hear(me, heard, memory, known, params.learn)
+
+
+@kernel
+def _roams(me, memory, params):
+    """How far, from 0 to 1, agents stay where they lost the target: if it roams, or if they are anywhere dense enough."""
+    if me.briefing.reach > params.full:
+        return 1.0
+    return min(max(memory.roam / params.roaming - 1.0, 0.0), 1.0)
 
 
 @kernel
@@ -220,7 +216,7 @@ strategy(
         **dict.fromkeys(("vx", "vy", "speed", "was_vx", "was_vy"), "m/s"),
         "agility": "m/s^2",
         "contact": "s",
-        **dict.fromkeys(("was_on", "roam", "trust"), "1"),
+        **dict.fromkeys(("was_on", "roam"), "1"),
     },
     sums=("ring_x", "ring_y", "cover_x", "cover_y"),
     begin=begin,
