@@ -8,7 +8,7 @@ import pytest
 
 from shoal.core.errors import RecordError, ScenarioError
 from shoal.core.version import RESULTS_VERSION
-from shoal.experiments.contenders import contenders
+from shoal.experiments.contenders import contenders, with_parameters
 from shoal.experiments.leaderboard import make_leaderboard, suite_hash
 from shoal.experiments.leaderboard_page import BEGIN, END, _as_markdown, page_part, standing_still, write_page
 from shoal.experiments.suite import read_suite, resized, suites
@@ -36,6 +36,15 @@ def board(suite, shares):
         for c, condition in enumerate(suite.conditions)
     }
     return make_leaderboard(suite, named, table)
+
+
+def test_lengths_that_are_said_of_a_contender_follow_each_condition():
+    wide = read_suite("arena-wide")
+    named, _ = with_parameters(contenders(["encircle"]), {"encircle.chase": 7.0, "encircle.push": 0.2})
+    said = {each.name: wide.design(each, named).points[0] for each in wide.conditions}
+    assert said["5 m/s"] == {"strategy": "encircle", "strategy.chase": 7.0, "strategy.push": 0.2}
+    assert said["sparse"]["strategy.chase"] == pytest.approx(14.0)  # twice the spacing
+    assert said["bay"]["strategy.chase"] == pytest.approx(7.0 * (6e6 / 30) ** 0.5 / 8**0.5)
 
 
 class TestArena:

@@ -1,4 +1,4 @@
-"""Reaches out for what roams, believes little of a single bit, and knows its body."""
+"""Reaches out for what roams, closes holes where it waits, and knows its body."""
 
 import math
 
@@ -11,7 +11,6 @@ from shoal.strategies import CATALOGUE
 from staging import DT, NOWHERE, memory_of, places, staged, wanted
 
 FAR = (8.0, 8.0)
-HEARD = {"company": 0.5}  # one neighbor is company enough
 DEFAULTS = CATALOGUE["cordon"].params._field_defaults
 SLUGGISH = {
     "targets": [{"kind": "still", "x": 1e6, "y": 0.0, "radius": 1.0}],
@@ -24,7 +23,7 @@ SLUGGISH = {
 
 def cordon(where, target=NOWHERE, *, top=1.0, memory=None, **params):
     """Agents at these places whose bodies obey; the first of them remembers this."""
-    simulation = staged(("cordon", {**HEARD, **params}), where, targets=[target], top=top)
+    simulation = staged(("cordon", params), where, targets=[target], top=top)
     kept = memory_of(simulation)
     kept["agility"][:] = 1e12
     for field, value in (memory or {}).items():
@@ -59,11 +58,22 @@ class TestWaiting:
         lattice.advance(400)
         assert places(ours) == pytest.approx(places(lattice), abs=1e-3)
 
-    @pytest.mark.parametrize(("company", "able"), [(0.5, 1.0), (2.0, 0.5)])
-    def test_neighbors_within_the_span_push_and_less_so_in_little_company(self, company, able):
+    def test_neighbors_within_the_span_push(self):
         """By spread x top speed x ((span / r)^2 - 1) r / span."""
-        simulation = cordon([(0.0, 0.0), (1.0, 0.0)], home=0.0, spread=0.02, span=3.0, company=company)
-        assert wanted(simulation)[0] == pytest.approx([-able * 0.02 * (9.0 - 1.0) / 3.0, 0.0], rel=1e-4)
+        simulation = cordon([(0.0, 0.0), (1.0, 0.0)], home=0.0, spread=0.02, span=3.0)
+        assert wanted(simulation)[0] == pytest.approx([-0.02 * (9.0 - 1.0) / 3.0, 0.0], rel=1e-4)
+
+    @pytest.mark.parametrize(("full", "shape"), [(0.9, "far"), (1.1, "near")])
+    def test_where_the_reach_is_more_than_the_area_asks_for_it_waits_as_if_the_target_roamed(self, full, shape):
+        """The reach is 1 m."""
+        shapes = {"near": {"home": 0.1, "inset": 2.0}, "far": {"home_far": 0.3, "inset_far": 1.0}}
+        others = {"spread": 0.0, "spread_far": 0.0, "home": 9.0, "home_far": 9.0}
+        asked = {**others, **shapes[shape]}
+        simulation = cordon([(0.0, 0.0), FAR], full=full, **asked)
+        station = [remembered(simulation, f"station_{axis}") for axis in "xy"]
+        share, inset = (0.1, 2.0) if shape == "near" else (0.3, 1.0)
+        way = (1.0 - inset / 10.0) * np.array(station) * share / DEFAULTS["span"]
+        assert wanted(simulation)[0] == pytest.approx(way, rel=1e-6)
 
 
 class TestRoaming:
@@ -83,22 +93,14 @@ class TestRoaming:
         assert np.hypot(*far) / np.hypot(*near) == pytest.approx((10.0 - 1.0) / (10.0 - 5.0))
 
 
-class TestTrust:
-    """A single bit may be a false alarm."""
+class TestPatience:
+    """How long a contact is believed."""
 
-    def test_each_step_of_contact_adds_its_share_of_what_is_missing(self):
-        simulation = cordon([(0.0, 0.0), FAR], (0.0, 0.0), trust=0.4)
-        found = []
-        for _ in range(3):
-            simulation.advance(1)
-            found.append(remembered(simulation, "trust"))
-        assert found == pytest.approx([0.4, 0.64, 0.784])
-
-    @pytest.mark.parametrize(("trust", "goes"), [(1.0, True), (0.4, False)])
-    def test_what_is_little_trusted_is_sooner_left(self, trust, goes):
-        """Half of the patience after the last contact, which was at (5, 0), west of which is its station."""
-        believes = {"x": 5.0, "y": 0.0, "speed": 1e-3, "contact": -0.5, "trust": trust, "station_x": -9.0}
-        velocity = wanted(cordon([(0.0, 0.0), FAR], memory=believes, patience=1.0, spread=0.0))[0]
+    @pytest.mark.parametrize(("patience", "goes"), [(1.0, True), (0.4, False)])
+    def test_what_is_no_longer_believed_is_left(self, patience, goes):
+        """Half a second after the last contact, which was at (5, 0), west of which is its station."""
+        believes = {"x": 5.0, "y": 0.0, "speed": 1e-3, "contact": -0.5, "station_x": -9.0}
+        velocity = wanted(cordon([(0.0, 0.0), FAR], memory=believes, patience=patience, spread=0.0))[0]
         assert (velocity[0] > 0.0) == goes
 
 

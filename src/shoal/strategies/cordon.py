@@ -29,57 +29,57 @@ from shoal.strategies.parts import own_station
 class Cordon(NamedTuple):
     """Parameters; those in _far hold where the target roams, with all between."""
 
-    ring: Annotated[Meters, Follows("reach"), Range(), Doc("distance of the ring from the estimate")] = 0.88
+    ring: Annotated[Meters, Follows("reach"), Range(), Doc("distance of the ring from the estimate")] = 0.75
     gap: Annotated[
         Meters, Follows("reach"), Range(), Doc("agents on the ring push each other when nearer than this")
-    ] = 2.24
-    push: Annotated[float, Range(), Doc("how strongly, as a share of the distance to the neighbor")] = 0.38
+    ] = 2.66
+    push: Annotated[float, Range(), Doc("how strongly, as a share of the distance to the neighbor")] = 0.22
     lead: Annotated[
         float, Range(), Doc("share of the time to get there by which the ring is ahead of the estimate")
-    ] = 0.23
+    ] = 0.16
     chase: Annotated[
         Meters,
         Follows("spacing"),
         Range(),
         Doc("how far from its station an agent as fast as the target goes to meet it"),
-    ] = 13.5
+    ] = 11.9
     haste: Annotated[
         Seconds, Follows("reach"), Range(), Doc("a target that goes the reach in less than this is met by more agents")
-    ] = 0.36
+    ] = 0.395
     patience: Annotated[
         Seconds, Follows("reach"), Range(), Doc("after so long without contact agents forget the estimate")
     ] = 1.0
     learn: Annotated[
         float, Range(0.0, 1.0), Doc("share of a correction along the path that goes into the estimated speed")
-    ] = 0.05
+    ] = 0.07
     beyond: Annotated[
         Meters, Follows("reach"), Range(), Doc("how far beyond where agents may go the estimate goes")
-    ] = 0.5
+    ] = 0.2
     edge: Annotated[
         Meters, Follows("reach"), Range(), Doc("a contact nearer to where agents may not go than this is at the edge")
-    ] = 0.72
+    ] = 0.82
     roaming: Annotated[
         float,
         Range(0.0, 1.0, open=True),
         Doc("from this share of contacts at the edge on a target roams, all the more up to twice of it"),
-    ] = 0.03
+    ] = 0.024
     survey: Annotated[Seconds, Follows("reach"), Range(open=True), Doc("over how long that share is measured")] = 28.0
     inset: Annotated[
         Meters, Follows("spacing"), Range(), Doc("how far inside where agents may go the cover of stations ends")
-    ] = 1.75
-    inset_far: Annotated[Meters, Follows("spacing"), Range(), Doc("the same where the target roams")] = 0.47
+    ] = 2.4
+    inset_far: Annotated[Meters, Follows("spacing"), Range(), Doc("the same where the target roams")] = 0.1
     home: Annotated[float, Range(), Doc("share of its top speed with which an agent goes home from one span away")] = (
-        8.0
+        3.6
     )
-    home_far: Annotated[float, Range(), Doc("the same where the target roams")] = 0.73
+    home_far: Annotated[float, Range(), Doc("the same where the target roams")] = 2.0
     full: Annotated[
         Meters, Follows("spacing"), Range(), Doc("with a reach of more, agents cover the area wherever they wait")
     ] = 1.25
     span: Annotated[
         Meters, Follows("spacing"), Range(open=True), Doc("agents that wait push each other when nearer than this")
-    ] = 4.1
-    spread: Annotated[float, Range(), Doc("how strongly, as a share of the top speed")] = 2.0
-    spread_far: Annotated[float, Range(), Doc("the same where the target roams")] = 3.3
+    ] = 3.7
+    spread: Annotated[float, Range(), Doc("how strongly, as a share of the top speed")] = 1.6
+    spread_far: Annotated[float, Range(), Doc("the same where the target roams")] = 4.5
     nimble: Annotated[
         Seconds, Follows("reach"), Range(), Doc("so does one that takes longer than this to its top speed")
     ] = 0.48
