@@ -90,11 +90,13 @@ def compare(
             device=device, out=out, figure=figure, width=width, as_json=json_,
         )  # fmt: skip
         return
-    fixed = {"--scenario": scenario, "--vary": vary, "--set": assignments, "--metric": metric, "--baseline": baseline}
+    fixed = {"--scenario": scenario, "--vary": vary, "--metric": metric, "--baseline": baseline}
     for name, given in fixed.items():
         if given:
             raise ScenarioError(name, f"does not go with --suite: {suite} has its own", "leave out one of the two")
+    if assignments and markdown:
+        raise ScenarioError("--set", "does not go with --markdown: its page is of defaults", "leave out one of the two")
     compare_suite(
-        strategies, suite, runs=runs, steps=steps, seed=seed, jobs=jobs, device=device, out=out, figure=figure,
-        width=width, markdown=markdown, as_json=json_,
+        strategies, suite, assignments=assignments or [], runs=runs, steps=steps, seed=seed, jobs=jobs, device=device,
+        out=out, figure=figure, width=width, markdown=markdown, as_json=json_,
     )  # fmt: skip

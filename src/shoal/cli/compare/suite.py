@@ -16,6 +16,7 @@ def compare_suite(
     named: Sequence[str],
     name: str,
     *,
+    assignments: list[str],
     runs: int | None,
     steps: int | None,
     seed: int | None,
@@ -30,9 +31,11 @@ def compare_suite(
     """Run what is missing of a suite, and print its leaderboard."""
     from shoal.cli.compare.data import leaderboard_data
     from shoal.cli.compare.table import print_leaderboard
+    from shoal.cli.options import given_changes
+    from shoal.core.errors import ScenarioError
     from shoal.core.files import check_file
     from shoal.experiments.compiled_first import compiled_first
-    from shoal.experiments.contenders import contenders
+    from shoal.experiments.contenders import contenders, with_parameters
     from shoal.experiments.leaderboard import make_leaderboard
     from shoal.experiments.leaderboard_page import page_around, write_page
     from shoal.experiments.on_card import executor_on
@@ -42,7 +45,10 @@ def compare_suite(
     from shoal.study.folder import store_folder
 
     suite = resized(read_suite(name), runs=runs, steps=steps, seed=seed)
-    everybody = contenders(named or sorted(CATALOGUE))
+    everybody, left = with_parameters(contenders(named or sorted(CATALOGUE)), given_changes(assignments))
+    if left:
+        problem = f"does not go with --suite: {name} has its own scenarios"
+        raise ScenarioError(f"--set {next(iter(left))}", problem, "set a parameter of a strategy: encircle.ring=0.9")
     if markdown:
         page_around(markdown, name)  # refused before the runs, not after
         check_file(markdown)
@@ -61,7 +67,8 @@ def compare_suite(
         write_page(board, markdown, named)
         note(f"page: {markdown}")
     if as_json:
-        write(json.dumps(leaderboard_data(board)) + "\n")
+        said = {each.name: dict(each.said) for each in everybody if each.said}
+        write(json.dumps(leaderboard_data(board) | ({"parameters": said} if said else {})) + "\n")
     else:
         print_leaderboard(board)
     if figure:
