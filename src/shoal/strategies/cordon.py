@@ -167,7 +167,7 @@ def _believe(me, heard, memory, params):
 
 @kernel
 def _roams(me, memory, params):
-    """How far, from 0 to 1, agents stay where they lost the target: if it roams, or if they are anywhere dense enough."""
+    """How far, from 0 to 1, agents stay where they lost the target: it roams, or they are dense enough anywhere."""
     if me.briefing.reach > params.full:
         return 1.0
     return min(max(memory.roam / params.roaming - 1.0, 0.0), 1.0)
