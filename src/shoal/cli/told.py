@@ -1,7 +1,7 @@
 """What is told of a record that was just made: its notes, its table or its JSON, and its figure."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from shoal.cli.progress import note
 
@@ -15,7 +15,7 @@ def tell(
     figure: Path | None,
     as_json: bool,
     *,
-    width: str = "double",
+    width: Literal["single", "double"] = "double",
     everything: bool = False,
 ) -> None:
     """Print a record, `everything` of it or what matters most, and draw it, so wide, if that was asked for."""
