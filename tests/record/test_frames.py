@@ -121,13 +121,14 @@ class TestLinks:
 
     def test_of_a_snapshot_are_the_same(self, networked):
         pytest.importorskip("matplotlib", reason="matplotlib is not installed")
+        from shoal.drawing.arena_drawing import Parts
         from shoal.drawing.snapshot import draw_snapshot
         from shoal.drawing.style import new_figure
 
         _, record = networked
         frames = record.trajectories[0]
         axes = new_figure(5.0, 5.0).add_axes((0.1, 0.1, 0.8, 0.8))
-        draw_snapshot(axes, record, frame=25, links=True)
+        draw_snapshot(axes, record, frame=25, parts=Parts(links=True))
         (drawn,) = axes.findobj(lambda artist: artist.get_gid() == "links")
         heard = who_hears_whom(frames, 25)
         places = np.stack([frames.x[25], frames.y[25]], axis=1)
