@@ -36,7 +36,7 @@ export interface PlotEvents {
   point(x: number | null): void;
 }
 
-const FONT = "10.5px system-ui, sans-serif";
+const FONT = "11px system-ui, sans-serif";
 const HIDDEN = { left: 0, top: 0, width: 0, height: 0 };
 
 export class Plot {
@@ -99,7 +99,7 @@ export class Plot {
         scales: { x: { time: false, range: () => this.drawing.x }, y: { range: () => [this.axis.low, this.axis.high] } },
         axes: [
           { ...axis, size: 20, gap: 5, space: 64, grid: { show: false }, values: (_, splits) => splits.map((x, n) => this.word(x, n, splits.length)) },
-          { ...axis, gap: 3, space: 20, size: (_, values) => 8 + 6.1 * Math.max(1, ...(values ?? []).map((each) => each.length)) },
+          { ...axis, gap: 3, space: 20, size: (_, values) => 8 + 6.1 * Math.max(2, ...(values ?? []).map((each) => each.length)) },
         ],
         series: [
           {},
