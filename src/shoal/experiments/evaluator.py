@@ -13,9 +13,9 @@ from typing import Any, Self
 from shoal.core.errors import ScenarioError
 from shoal.core.version import RESULTS_VERSION
 from shoal.experiments.cells import Cell, base_table
+from shoal.experiments.condition_point import followed_point
 from shoal.experiments.design import Design, Point
 from shoal.experiments.executors import Executor, Task
-from shoal.experiments.followed import followed_point
 from shoal.experiments.rows import Row
 from shoal.experiments.store import Store
 from shoal.experiments.suite import SuiteCondition

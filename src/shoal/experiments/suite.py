@@ -12,10 +12,10 @@ from shoal.core.errors import ScenarioError, did_you_mean
 from shoal.core.files import check_folder
 from shoal.experiments.cells import Cell, make_cells
 from shoal.experiments.comparison import Values
+from shoal.experiments.condition_point import followed_point
 from shoal.experiments.contenders import Contender
 from shoal.experiments.design import Design, Point
 from shoal.experiments.executors import Executor
-from shoal.experiments.followed import followed_point
 from shoal.experiments.rows import Row
 from shoal.experiments.run_comparison import comparison_design, run_comparison, values_of
 from shoal.experiments.sweep import Progress

@@ -1,7 +1,7 @@
 import pytest
 
 from shoal.core.errors import ScenarioError
-from shoal.experiments.followed import followed_point
+from shoal.experiments.condition_point import followed_point
 from shoal.scenario.load import load
 
 HERE = load("oceans2020", strategy="encircle")
