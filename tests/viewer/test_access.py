@@ -159,7 +159,7 @@ class TestTheKeyboard:
         before = page.evaluate(STATE)
         page.keyboard.press(key)
         try:
-            page.wait_for_function(f"before => ({STATE})() !== before", arg=before, timeout=700)
+            page.wait_for_function(f"before => ({STATE})() !== before", arg=before, timeout=4000)
         except NothingHappened:
             return False
         return True
