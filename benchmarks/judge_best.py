@@ -30,6 +30,10 @@ def read(files: list[Path]) -> dict[str, Values]:
     return found
 
 
+def _told(p: float | None) -> str:
+    return "" if p is None else "< 0.001" if p < 0.001 else f"{p:.3f}"
+
+
 def main() -> int:
     """Print the table; 1 if another is better anywhere."""
     found = read([Path(name) for name in sys.argv[1:]])
@@ -50,7 +54,7 @@ def main() -> int:
         difference = "" if gap is None else f"{-gap.mean:+.4f}"
         print(
             f"| {condition.name} | {ours.value.mean:.4f} | {best.strategy} | {best.value.mean:.4f} | {difference} | "
-            f"{'' if p is None else f'{p:.3f}'} | {sign} |"
+            f"{_told(p)} | {sign} |"
         )
     names = {each.strategy for each in judged.conditions[0].standings}
     shared = [name for name in names if all(name in values for values in found.values())]
