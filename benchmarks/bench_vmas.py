@@ -23,30 +23,34 @@ from shoal.learn.env import Observe, VectorEnv
 sys.path.insert(0, str(Path(__file__).parent / "peers"))
 from vmas_env import AGENTS, K, Swarm
 
-SWARMS, STEPS = (24, 256, 1024), 12  # steps of a stretch
+SWARMS = (24, 256, 1024)
+AT_ONCE = 9600  # steps of a stretch, of all swarms together
+CHOICES = 10  # sets of actions, in turn
 
 
 def shoal_stretch(swarms: int) -> float:
     """Seconds of an agent-step."""
     env = VectorEnv(shoal.load("oceans2020", neighbors=K), swarms, observe=Observe(reports=K), copy=False)
     env.reset(seed=1)
-    action = np.random.default_rng(1).uniform(-1.0, 1.0, env.action_space.shape).astype(np.float32)
-    env.step(action)
+    chance = np.random.default_rng(1)
+    actions = chance.uniform(-1.0, 1.0, (CHOICES, *env.action_space.shape)).astype(np.float32)
+    env.step(actions[0])
     begun = time.process_time()
-    for _ in range(STEPS):
-        env.step(action)
-    return (time.process_time() - begun) / (STEPS * swarms * AGENTS)
+    for step in range(AT_ONCE // swarms):
+        env.step(actions[step % CHOICES])
+    return (time.process_time() - begun) / (AT_ONCE // swarms * swarms * AGENTS)
 
 
 def vmas_stretch(swarms: int) -> float:
     """Seconds of an agent-step."""
     env = vmas.make_env(Swarm(), num_envs=swarms, device="cpu", continuous_actions=True, seed=1)
-    actions = [2 * torch.rand(swarms, 2) - 1 for _ in range(AGENTS)]
-    env.step(actions)
+    actions = [[2 * torch.rand(swarms, 2) - 1 for _ in range(AGENTS)] for _ in range(CHOICES)]
+    env.step(actions[0])
     begun = time.process_time()
-    for _ in range(STEPS):
-        env.step(actions)
-    return (time.process_time() - begun) / (STEPS * swarms * AGENTS)
+    steps = max(AT_ONCE // swarms // 8, 4)  # a stretch about as long as the other's, in seconds
+    for step in range(steps):
+        env.step([each.clone() for each in actions[step % CHOICES]])
+    return (time.process_time() - begun) / (steps * swarms * AGENTS)
 
 
 def main() -> None:
