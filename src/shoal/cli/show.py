@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from shoal.cli.older import opened
-from shoal.cli.progress import note
+from shoal.cli.told import print_and_draw
 
 
 def show(
@@ -33,21 +33,9 @@ def show(
     json_
         Print one JSON object and nothing else.
     """
-    from shoal.cli.table import print_record
-
     if figure:
         from shoal.drawing.files import check_figure
 
         check_figure(figure)
     known = opened(record)
-    if json_:
-        from shoal.cli.summary import print_json
-
-        print_json(known)
-    else:
-        print_record(known, everything=all_)
-    if figure:
-        from shoal.study.plot import save, summary
-
-        save(summary(known, width=width), figure)
-        note(f"figure: {figure}")
+    print_and_draw(known, figure, json_, width=width, everything=all_)

@@ -23,6 +23,18 @@ def tell(
         note(each)
     if out:
         note(f"record: {out} (shoal show {out})")
+    print_and_draw(record, figure, as_json, width=width, everything=everything)
+
+
+def print_and_draw(
+    record: "Record",
+    figure: Path | None,
+    as_json: bool,
+    *,
+    width: Literal["single", "double"] = "double",
+    everything: bool = False,
+) -> None:
+    """Print a record and draw it, without what was noted when it was made."""
     if as_json:
         from shoal.cli.summary import print_json
 
