@@ -21,8 +21,9 @@ from shoal.scenario.load import load, scenario_from, to_toml
 from shoal.strategies import CATALOGUE
 
 ALIKE = {  # hear, remember and tell as others do that are tried; test_every_strategy.py has them all
-    "adrift", "attraction-repulsion", "constant-repulsion", "expanding-square", "lattice", "lattice-pursuit",
-    "parallel-track", "pursuit", "sector-search",
+    "a-cmommt", "adrift", "attraction-repulsion", "charged-pso", "constant-repulsion", "encircle", "expanding-square",
+    "lattice", "lattice-intercept", "lattice-pursuit", "parallel-track", "pursuit", "random-walk", "sector-search",
+    "shared-sighting",
 }  # fmt: skip
 CREWS = [*([name] for name in STRATEGIES), *TEAMS]
 VALID = 12  # of each crew
