@@ -13,6 +13,7 @@ from shoal.run.facts import facts_of
 from shoal.run.simulation import Simulation
 from shoal.scenario.load import load, scenario_from, to_toml
 from shoal.strategies import CATALOGUE, strategy
+from shoal.strategies.plugins import line_in
 
 STEPS = 300
 DRIFTER = '''"""Drift; keep apart; run to whoever is on target."""
@@ -284,6 +285,13 @@ class TestErrors:
         broken = f"{head}    if me.time >= 0.0:\n        {line}\n    if heard.found:{body}"
         with pytest.raises(StrategyError, match=says):
             Simulation(using(written(tmp_path, broken))).advance(1)
+
+    @pytest.mark.parametrize("compiled_as", ["/new/mine.py", "/old/mine.py"])
+    def test_a_line_is_found_where_kept_machine_code_knows_the_file_by_its_path_of_old(self, compiled_as):
+        with pytest.raises(ZeroDivisionError) as raised:
+            exec(compile("\n\n1 / 0", compiled_as, "exec"))
+        assert line_in(raised.tb, "/new/mine.py") == 3
+        assert line_in(raised.tb, "/new/other.py") is None
 
     def test_a_function_of_other_arguments(self):
         with pytest.raises(StrategyError, match=r"(?s)decide takes 2 arguments.*me, heard, memory, params, draw"):

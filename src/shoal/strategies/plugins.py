@@ -152,10 +152,17 @@ def _execute(path: Path, module_name: str) -> None:
 
 
 def line_in(trace: TracebackType | None, file: str | Path) -> int | None:
-    """The innermost line of a file that a traceback goes through."""
-    line = None
+    """The innermost line of a file that a traceback goes through.
+
+    Machine code kept from an earlier process knows its file by the path that it had then, so a file of the same name
+    will do where there is none of this path.
+    """
+    exact, by_name = None, None
     while trace:
-        if trace.tb_frame.f_code.co_filename == str(file):
-            line = trace.tb_lineno
+        passed = trace.tb_frame.f_code.co_filename
+        if passed == str(file):
+            exact = trace.tb_lineno
+        elif Path(passed).name == Path(file).name:
+            by_name = trace.tb_lineno
         trace = trace.tb_next
-    return line
+    return by_name if exact is None else exact
