@@ -81,6 +81,13 @@ def test_every_point_of_a_plan_is_a_scenario(paper, quick):
         assert len(make_cells(group.design, group.changes)) == len(group.design.points)
 
 
+@pytest.mark.parametrize("quick", [False, True])
+def test_where_fast_buoys_hear_fewer_the_same_k_for_all_is_run_too(quick):
+    """Else the cases of E3 with that k would be left out unsaid."""
+    groups = evasive_groups(quick)
+    assert {point["neighbors"] for point in groups["unequal"]} <= {point["neighbors"] for point in groups["main"]}
+
+
 def test_a_seed_is_judged_by_what_the_others_chose():
     luck = np.array([[1.0, 0.0], [0.0, 0.5], [0.0, 0.5]])
     assert best_gain(luck, np.zeros(3)).tolist() == [0.0, 0.0, 0.0]  # without it the first is best, without others not

@@ -93,6 +93,19 @@ class TestRoaming:
         assert np.hypot(*far) / np.hypot(*near) == pytest.approx((10.0 - 1.0) / (10.0 - 5.0))
 
 
+class TestRing:
+    """Those around the estimate push each other apart."""
+
+    @pytest.mark.parametrize(("room", "gap"), [(4.0, 2.0), (2.0, 2.0), (0.5, 1.0)])
+    def test_where_agents_have_little_room_they_keep_less_apart(self, room, gap):
+        """Geometric mean of room and gap, by push x ((gap / r)^2 - 1) r; the agent is on its ring's place."""
+        on_it = {"x": 0.0, "y": 0.0, "speed": 1e-3, "contact": 0.0, "station_x": -9.0}
+        simulation = cordon(
+            [(0.0, 0.0), (0.5, 0.0), FAR], memory=on_it, room=room, gap=2.0, push=0.01, ring=0.0, lead=0.0
+        )
+        assert wanted(simulation)[0] * DT == pytest.approx([-0.01 * ((gap / 0.5) ** 2 - 1.0) * 0.5, 0.0], rel=1e-3)
+
+
 class TestPatience:
     """How long a contact is believed."""
 

@@ -69,7 +69,9 @@ def alife_figures(rows: Mapping[str, Sequence[Row]]) -> list[Figure]:
             data += _line(axes, mine, "fast", f"{agents} buoys", color, marker)
         base = series(where(whole, fast=BASE_FAST), "fast", TIME_ON_TARGET)
         if base.mean:
-            axes.axhline(base.mean[0], color=GRAY, linewidth=0.9, linestyle=(0, (4, 3)))
+            axes.axhline(
+                base.mean[0], color=GRAY, linewidth=0.9, linestyle=(0, (4, 3)), label=f"{AGENTS} with {BASE_FAST} fast"
+            )
         return data
 
     made = [
@@ -88,8 +90,8 @@ def alife_figures(rows: Mapping[str, Sequence[Row]]) -> list[Figure]:
             f"{_TITLE}, with fewer buoys",
             few,
             "fast buoys",
-            f"Against the number of fast buoys among 30, 40 and {AGENTS}, k = {UNEQUAL_AT[0]}. The dashed line are "
-            f"{AGENTS} buoys with {BASE_FAST} fast ones. {seeds}",
+            f"Against the number of fast buoys among 30, 40 and {AGENTS}, k = {UNEQUAL_AT[0]}. The dashed line: {AGENTS} "
+            f"buoys with {BASE_FAST} fast ones. {seeds}",
         ),
     ]
     return [figure for figure in made if figure is not None]

@@ -13,7 +13,7 @@ LOW_K = (5, 10, 15)  # of the fast buoys where they hear fewer than the others
 UNEQUAL_AT = (20, 30)  # k of all others then
 FEWER = (30, 40)  # agents instead of 50
 FAST_OF_FEWER = (0, 10, 20, 30)
-_EVASIVE_NEIGHBORS = (4, 7, 10, 13, 16, 20, 24, 28, 32, 36, 40, 44, 48)
+_EVASIVE_NEIGHBORS = (4, 7, 10, 13, 16, 20, 25, 30, 35, 40, 44, 48)  # with those of UNEQUAL_AT
 _EVASIVE_NEIGHBORS_QUICK = (5, 10, 20, 30, 40, 48)
 
 SIDES = (8.0, 11.0, 16.0, 22.0, 32.0, 45.0, 64.0)  # [m] of the area of 50 agents: each density is half of the last

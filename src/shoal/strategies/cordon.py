@@ -7,7 +7,8 @@ pushed apart by its neighbors. What is new, so that one set of numbers serves sl
 1. Roaming: the share of recent contacts at the edge of where agents may go. Against a target that keeps off the edge
    the cover is drawn in and agents run home to it; against one that strays there, it reaches out, and agents stay where
    they lost the target, spread by their neighbors like a gas.
-2. Haste: a target found to be fast is met by more agents, which keep farther apart.
+2. Haste: a target found to be fast is met by more agents, which keep farther apart. Where agents are many to the area,
+   they keep less apart, so that the push of all does not drive them off the ring.
 3. Who waits is pushed by neighbors anyway, so that the holes of lost agents close; on a chart, whose stations lie where
    water is, it is not. Where the reach is more than agents need to cover the area, they stay where they are, too.
 4. An agent whose body does not obey at once holds to its station, and slows down in time for what acceleration it saw
@@ -33,6 +34,9 @@ class Cordon(NamedTuple):
     gap: Annotated[
         Meters, Follows("reach"), Range(), Doc("agents on the ring push each other when nearer than this")
     ] = 2.66
+    room: Annotated[
+        Meters, Follows("spacing"), Range(), Doc("where less than the gap, the gap is the geometric mean of both")
+    ] = 2.7
     push: Annotated[float, Range(), Doc("how strongly, as a share of the distance to the neighbor")] = 0.22
     lead: Annotated[
         float, Range(), Doc("share of the time to get there by which the ring is ahead of the estimate")
@@ -94,11 +98,14 @@ def begin(me, memory, params, draw):
 
 
 def influence(me, other, params):
-    """Push away from a neighbor within the gap, and from one within the span, as steeply as (gap / r)^2 - 1."""
+    """Push away from a neighbor within the gap, which is less in a crowd, and from one within the span.
+
+    As steeply as (gap / r)^2 - 1.
+    """
     dx = me.x - other.x
     dy = me.y - other.y
     square = dx * dx + dy * dy
-    near = params.gap * params.gap
+    near = params.gap * min(params.gap, params.room)
     far = params.span * params.span
     ring = max(0.0, near / (square + (_SOFTENING * near + _NOTHING)) - 1.0)
     cover = max(0.0, far / (square + (_SOFTENING * far + _NOTHING)) - 1.0)
