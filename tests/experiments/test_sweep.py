@@ -7,6 +7,8 @@ import signal
 import sqlite3
 import subprocess
 import sys
+import time
+from types import SimpleNamespace
 
 import pytest
 
@@ -14,14 +16,17 @@ import shoal
 from commands import wait_until
 from shoal.core.errors import RecordError, ScenarioError
 from shoal.core.version import RESULTS_VERSION
+from shoal.experiments.cells import make_cells
 from shoal.experiments.design import Design, grid
 from shoal.experiments.executors import in_threads
 from shoal.experiments.results import aggregate, read_rows, seal
+from shoal.experiments.rows import failed_row
 from shoal.experiments.store import Store, _differences
-from shoal.experiments.sweep import Stop, sweep
+from shoal.experiments.sweep import Progress, Stop, store_all, sweep
 
 DESIGN = Design("oceans2020", tuple(grid({"neighbors": [10, 30], "fast": [0, 15]})), 2)
 SHORT = {"steps": 300}
+CELL = make_cells(DESIGN, SHORT)[0]
 
 
 def stripped(rows):
@@ -51,6 +56,12 @@ class TestSweep:
         grown = sweep(more, tmp_path / "grown", changes=SHORT)
         assert [row for row in grown if row["neighbors"] != 20 and row["run"] < 2] == few
         assert grown == sweep(more, tmp_path / "fresh", changes=SHORT)
+
+    def test_what_is_compiled_before_the_first_run_does_not_count_in_the_time_left(self):
+        progress = Progress(total=8, before=0, begun=time.monotonic() - 3600.0)
+        done = CELL, 0, failed_row("of no interest") | {"seconds": 2.0}
+        store_all(iter([done]), SimpleNamespace(add=lambda rows: None), progress, None)
+        assert progress.rate == pytest.approx(0.5, rel=0.1)
 
     def test_run_r_of_every_cell_shares_its_chance(self, tmp_path):
         rows = sweep(DESIGN, tmp_path, changes=SHORT)

@@ -56,7 +56,9 @@ def _tell_how_far() -> None:
     """Say it from time to time, while it is under way."""
     from shoal.run.compiling import how_far
 
+    begun = time.monotonic()
     time.sleep(SECONDS_BETWEEN_LINES)
     while parts := how_far():
-        note("compiled {} of {} parts that all strategies share".format(*parts))
+        done, of = parts
+        note(f"compiled {done} of {of} parts that all strategies share, in {time.monotonic() - begun:.0f} s")
         time.sleep(SECONDS_BETWEEN_LINES)

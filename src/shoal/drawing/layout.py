@@ -11,9 +11,10 @@ BELOW_CURVES, BELOW_HISTOGRAM, BELOW_SNAPSHOT = 0.42, 0.7, 0.48  # room for tick
 GUTTER = 0.68  # between columns, y label of the right one included
 SNAPSHOT = 3.3  # height beside the charts
 WIDEST = 3.35  # width beside the charts
-TALLEST = 5.0  # height of a snapshot on a narrow page
+TALLEST = 5.0  # height of a snapshot above the charts
 NARROWEST = 2.2  # column of a snapshot beside the charts
 CHART = 1.55  # height of a chart below the snapshot
+COLUMN_CHART, COLUMN_SNAPSHOT = 1.15, 2.55  # heights in one column of a journal, which is 9.5 in tall
 WIDE = 1.5  # width / height from which the snapshot takes the whole width
 
 Box = tuple[float, float, float, float]  # left, bottom, width, height
@@ -38,7 +39,7 @@ def snapshot_size(aspect: float, page: float = DOUBLE) -> tuple[float, float]:
     """Width and height [inch] of a snapshot whose arena is `aspect` times as wide as high, on a page of a width."""
     beside = page >= DOUBLE and aspect <= WIDE
     room = WIDEST if beside else page - LEFT - RIGHT
-    highest = SNAPSHOT if beside else TALLEST
+    highest = SNAPSHOT if beside else TALLEST if page >= DOUBLE else COLUMN_SNAPSHOT
     width = min(room, highest * aspect)
     return width, width / aspect
 
@@ -66,10 +67,10 @@ def _one_below_the_other(page: float, above: float, footer: float, size: tuple[f
     """Snapshot, histogram, curves."""
     wide = page - LEFT - RIGHT
     curves = footer + BELOW_CURVES
-    histogram = curves + CHART + TITLE + BELOW_HISTOGRAM
-    top = histogram + CHART + TITLE
+    histogram = curves + COLUMN_CHART + TITLE + BELOW_HISTOGRAM
+    top = histogram + COLUMN_CHART + TITLE
     box = None if size is None else (LEFT + (wide - size[0]) / 2, top + BELOW_SNAPSHOT, *size)
-    return Boxes(page, top + above, box, (LEFT, histogram, wide, CHART), (LEFT, curves, wide, CHART))
+    return Boxes(page, top + above, box, (LEFT, histogram, wide, COLUMN_CHART), (LEFT, curves, wide, COLUMN_CHART))
 
 
 def _charts_in_a_row(page: float, above: float, footer: float, size: tuple[float, float] | None) -> Boxes:

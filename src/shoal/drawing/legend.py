@@ -19,6 +19,7 @@ _LETTER, _SIGN = 0.058, 0.42  # [inch] width of a letter; of a sign and the spac
 _USUAL = 8.0  # [square inch] of a snapshot
 _LONGEST = 34  # letters of a line of a name
 _HALO, _SENSOR, _REPORTS = "repulsion a_R", "sensor", "reports a target"
+_WALL = "agents' wall"
 
 
 def draw_legend(
@@ -45,24 +46,26 @@ def draw_legend(
         signs.append(_sign(_HALO, "o", markerfacecolor=face, markeredgecolor=edge, markersize=11))
     if sensors:
         signs.append(_sign(_SENSOR, "o", markerfacecolor="none", markeredgecolor=GRAY, markersize=9))
-    return _above(axes, signs, width, shift)
+    return _above(axes, [*signs, *_wall_signs(record)], width, shift)
 
 
 def draw_map_legend(axes: "Axes", record: Record) -> float:
     """Name the signs of a trajectory map above it; return the height taken [inch]."""
     ring = _sign("start", "o", markerfacecolor="white", markeredgecolor=GRAY, markersize=4)
-    return _above(axes, [*_fleet_signs(record), _target_sign(), ring])
+    return _above(axes, [*_fleet_signs(record), _target_sign(), ring, *_wall_signs(record)])
 
 
 def legend_height(record: Record, width: float, *, halos: bool = False, sensors: bool = False) -> float:
     """Height of the legend above a snapshot of a width [inch]."""
     labels = [*_fleet_labels(record), _REPORTS, "target", *[_HALO] * halos, *[_SENSOR] * sensors]
+    labels += [str(sign.get_label()) for sign in _wall_signs(record)]
     return _height(labels, width)
 
 
 def map_legend_height(record: Record, width: float) -> float:
     """Height of the legend above a trajectory map of a width [inch]."""
-    return _height([*_fleet_labels(record), "target", "start"], width)
+    signs = [*_fleet_signs(record), *_wall_signs(record)]
+    return _height([*(str(sign.get_label()) for sign in signs), "target", "start"], width)
 
 
 def headroom(axes: "Axes", labels: list[str]) -> None:
@@ -139,6 +142,15 @@ def _fleet_signs(record: Record) -> list[Any]:
 
 def _target_sign() -> Any:
     return _sign("target", "o", markerfacecolor=TARGET + "38", markeredgecolor=TARGET, markersize=8)
+
+
+def _wall_signs(record: Record) -> list[Any]:
+    """Of the dashed line, where there is one: see arena.py."""
+    from matplotlib.lines import Line2D
+
+    if not record.scenario.area.agent_margin:
+        return []
+    return [Line2D([], [], color=GRAY, linewidth=0.7, linestyle=(0, (4, 3)), label=_WALL)]
 
 
 def _above(axes: "Axes", signs: list[Any], width: float | None = None, shift: float = 0.0) -> float:

@@ -24,7 +24,7 @@ FLUSH_ROWS = 64
 
 @dataclass
 class Progress:
-    """How far a sweep is: runs wanted, done before, done now, failed now; seconds since the start."""
+    """How far a sweep is: runs wanted, done before, done now, failed now; when the first run began."""
 
     total: int
     before: int
@@ -129,6 +129,8 @@ def store_all(
     written = time.monotonic()
     try:
         for entry in finished:
+            if not progress.done:  # what was compiled before it began says nothing of the rate
+                progress.begun = max(progress.begun, time.monotonic() - entry[2].get("seconds", 0.0))
             waiting.append(entry)
             progress.done += 1
             progress.failed += entry[2]["status"] == "failed"

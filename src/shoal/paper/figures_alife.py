@@ -90,8 +90,8 @@ def alife_figures(rows: Mapping[str, Sequence[Row]]) -> list[Figure]:
             f"{_TITLE}, with fewer buoys",
             few,
             "fast buoys",
-            f"Against the number of fast buoys among 30, 40 and {AGENTS}, k = {UNEQUAL_AT[0]}. The dashed line: {AGENTS} "
-            f"buoys with {BASE_FAST} fast ones. {seeds}",
+            f"Against the number of fast buoys among 30, 40 and {AGENTS}, k = {UNEQUAL_AT[0]}. The dashed line: "
+            f"{AGENTS} buoys with {BASE_FAST} fast ones. {seeds}",
         ),
     ]
     return [figure for figure in made if figure is not None]

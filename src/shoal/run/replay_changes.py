@@ -53,11 +53,12 @@ def replay_changes(
     if every is not None and every < 1:
         raise ScenarioError("every", f"is {every}", "ask for 1 or more")
     settings, entries, fields = planned(known, run)
-    begun, started = time.perf_counter(), datetime.now(UTC)
+    started = datetime.now(UTC)
     with RecordFolder(out) if out is not None else nullcontext() as folder:
         keep = Keep(settings.scenario, every, 1, folder)
         steered = SteeredRun(settings, recorded=True, sums=True)
         first = steered.simulation
+        begun = time.perf_counter()
         frames = _run(steered, entries, keep, fields, progress or (lambda done, total: None))
         notes = [*first.notes, *keep.notes, *filter(None, [known.note])]
         record = Record(
