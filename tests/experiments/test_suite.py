@@ -13,6 +13,8 @@ from shoal.experiments.leaderboard import make_leaderboard, suite_hash
 from shoal.experiments.leaderboard_page import BEGIN, END, _as_markdown, page_part, standing_still, write_page
 from shoal.experiments.suite import read_suite, resized, suites
 from shoal.metrics.summary import METRICS
+from shoal.scenario.crew import crew_of
+from shoal.scenario.load import load
 from shoal.strategies import CATALOGUE
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "arena.md"
@@ -151,6 +153,12 @@ class TestLeaderboard:
         hashes = {suite_hash(arena, few), suite_hash(arena, more), *(suite_hash(each, few) for each in other)}
         assert len(hashes) == 5
         assert suite_hash(arena, few) in hashes
+
+    def test_the_hash_follows_defaults_which_those_of_scenarios_do_not(self, arena, monkeypatch):
+        before = suite_hash(arena, contenders(["knn-pso"]))
+        other = crew_of(load("oceans2020", **{"strategy.social": 0.6}))  # as if that were the default
+        monkeypatch.setattr("shoal.experiments.leaderboard.crew_of", lambda scenario: other)
+        assert suite_hash(arena, contenders(["knn-pso"])) != before
 
 
 class TestStandingStill:

@@ -11,6 +11,7 @@ from shoal.experiments.contenders import LATTICE, Contender
 from shoal.experiments.design import Point
 from shoal.experiments.suite import Suite
 from shoal.metrics.summary import Bounds
+from shoal.scenario.crew import crew_of
 
 SCORE = "score"
 _SHARE = Bounds(0.0, 1.0)
@@ -54,6 +55,8 @@ def make_leaderboard(
 
 
 def suite_hash(suite: Suite, contenders: Sequence[Contender]) -> str:
-    """16 hex digits over all runs of a suite."""
-    ids = [cell.run_id(run) for cell in suite.cells(contenders) for run in range(suite.runs)]
-    return hashlib.sha256(" ".join(ids).encode()).hexdigest()[:16]
+    """16 hex digits over all runs of a suite, and the parameters that strategies have where nothing says them."""
+    cells = suite.cells(contenders)
+    ids = [cell.run_id(run) for cell in cells for run in range(suite.runs)]
+    parameters = [str(crew_of(cell.scenario).params) for cell in cells]
+    return hashlib.sha256(" ".join(ids + parameters).encode()).hexdigest()[:16]
