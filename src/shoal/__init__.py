@@ -12,6 +12,7 @@ load, presets, to_toml, Scenario               what to run; `scenario.with_(neig
 Simulation                                     one run, step by step
 replay_changes                                 a run that was changed while it was watched, made again
 Record, open_record, save_record, load_results what runs leave behind
+paired_difference                              of runs with the same seeds, with its interval and p
 export                                         its tracks, for maps and other programs
 list_strategies, list_metrics, list_presets    what there is
 strategy, kernel, uniform, normal              to write a strategy, with the units
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from shoal.core.errors import ShoalError
     from shoal.core.messages import Reading, Report
     from shoal.core.units import Degrees, Doc, Follows, Meters, MetersPerSecond, Range, Seconds
+    from shoal.experiments.paired import paired_difference
     from shoal.metrics.contract import Measurement, Metric, Sum
     from shoal.paper.reproduce import reproduce
     from shoal.record.files import open_record, save_record
@@ -64,6 +66,7 @@ _HOMES = {
     "shoal.core.errors": ("ShoalError",),
     "shoal.core.messages": ("Reading", "Report"),
     "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Range", "Doc", "Follows", "Seconds"),
+    "shoal.experiments.paired": ("paired_difference",),
     "shoal.metrics.contract": ("Measurement", "Metric", "Sum"),
     "shoal.paper.reproduce": ("reproduce",),
     "shoal.record.files": ("open_record", "save_record"),
@@ -118,6 +121,7 @@ __all__ = [
     "load_results",
     "normal",
     "open_record",
+    "paired_difference",
     "plot",
     "presets",
     "replay_changes",
