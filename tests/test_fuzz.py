@@ -50,7 +50,7 @@ class TestValid:
     def test_runs_and_adds_up(self, crew):
         for case in range(VALID):
             table = valid_table(chance(crew, case), CREWS[crew])
-            if crew % 4 and "motion" in table:  # each order is compiled for itself
+            if CREWS[crew] != ["knn-pso"] and "motion" in table:  # each order is compiled for itself
                 table["motion"]["update_order"] = "synchronous"
             try:
                 self.check(table)

@@ -1,7 +1,8 @@
 """Open every page of a site in a browser that reaches no other host: python docs/tools/open_site.py FOLDER.
 
 Needs playwright and a chromium. Exit code 1 and a line each if a page asks for what is not there, or elsewhere, or has
-an error in its scripts, or if the search finds nothing.
+an error in its scripts, or if the search finds nothing; and, where axe-core is installed (`npm ci` in web/), for what
+it finds on a page, light or dark.
 """
 
 import re
@@ -9,12 +10,17 @@ import sys
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
+from typing import Literal
 
 from playwright.sync_api import Browser, Request, Route, TimeoutError, sync_playwright
 
 CHROMIUM = [Path(path) for path in ("/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome")]
 ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
 WORD = "repulsion"  # to search for
+AXE = Path(__file__).parents[2] / "web/node_modules/axe-core/axe.min.js"
+SCHEMES: dict[Literal["light", "dark"], str] = {"light": "default", "dark": "slate"}  # a browser's word: the site's
+FINDINGS = """() => axe.run(document, {resultTypes: ["violations"]}).then(({violations}) =>
+    violations.map(({id, nodes}) => `${id}: ${nodes.slice(0, 3).map(({html}) => html.slice(0, 160)).join(" | ")}`))"""
 
 
 def main(folder: Path) -> int:
@@ -25,11 +31,13 @@ def main(folder: Path) -> int:
         chromium = next((path for path in [own, *CHROMIUM] if path.exists()), None)
         browser = engine.chromium.launch(executable_path=chromium, args=ARGUMENTS)
         found = list(faults(browser, files))
+        found += [each for scheme in SCHEMES for each in unreadable(browser, files, scheme)] if AXE.exists() else []
         found += [] if finds(browser, folder.resolve() / "index.html") else [f"search: finds no {WORD}"]
         browser.close()
     for fault in found:
         print(fault)
-    print(f"{len(files)} pages opened, {len(found)} faults")
+    scanned = "axe-core looked at all of them, light and dark" if AXE.exists() else "axe-core is not installed"
+    print(f"{len(files)} pages opened, {len(found)} faults; {scanned}")
     return int(bool(found))
 
 
@@ -58,6 +66,19 @@ def faults(browser: Browser, files: list[Path]) -> Iterator[str]:
             page.wait_for_timeout(50)
             yield from (f"{file.name}: {each}" for each in told)
             told.clear()
+
+
+def unreadable(browser: Browser, files: list[Path], scheme: Literal["light", "dark"]) -> Iterator[str]:
+    """What axe-core finds on pages: what somebody cannot see, reach or have read aloud."""
+    with browser.new_context(offline=True, bypass_csp=True, color_scheme=scheme, reduced_motion="reduce") as context:
+        context.add_init_script(path=AXE)
+        page = context.new_page()
+        for file in files:
+            page.goto(file.as_uri(), wait_until="load")
+            shown = page.evaluate("document.body.dataset.mdColorScheme")
+            if shown not in (None, SCHEMES[scheme]):
+                yield f"{file.name}: is {shown} where {scheme} is asked for"
+            yield from (f"{file.name} ({scheme}): {each}" for each in page.evaluate(FINDINGS))
 
 
 def finds(browser: Browser, file: Path) -> bool:

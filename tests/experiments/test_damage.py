@@ -211,26 +211,26 @@ def hurt(folder, chance):
 
 
 class TestFuzz:
-    """2,000 seeded mutations of a store."""
+    """1,000 seeded mutations of a store."""
 
     @pytest.mark.slow
     def test_no_wrong_number_is_taken_as_right(self, good, tmp_path):
         right = read_rows(good)
         count = {"same": 0, "refused": 0, "refused and same": 0}  # last: where only who resumes it looks
-        for seed in range(2000):
+        for seed in range(1000):
             folder = shutil.copytree(good, tmp_path / f"s{seed}")
             what = hurt(folder, random.Random(seed))
             found = outcome(folder, right)
             assert found in count, f"seed {seed}, {what}: {found}"
             count[found] += 1
             shutil.rmtree(folder)
-        assert count["refused"] > 1000
+        assert count["refused"] > 500
 
     @pytest.mark.slow
     @pytest.mark.parametrize("name", ["sweep", "compare"])
     def test_stores_of_format_1_which_has_no_checksums_never_end_in_a_traceback(self, tmp_path, name):
         refused = 0
-        for seed in range(500):
+        for seed in range(250):
             folder = shutil.copytree(DATA / "results-v1" / name, tmp_path / f"s{seed}")
             hurt(folder, random.Random(seed))
             try:
@@ -239,4 +239,4 @@ class TestFuzz:
             except RecordError:
                 refused += 1
             shutil.rmtree(folder)
-        assert refused > 150
+        assert refused > 75

@@ -254,12 +254,12 @@ def hurt_arrays(arrays, chance):
 
 
 class TestFuzz:
-    """700 seeded mutations of a record."""
+    """400 seeded mutations of a record."""
 
     @pytest.mark.slow
     def test_no_wrong_number_is_taken_as_right(self, good, tmp_path):
         right, count = all_of(good), {"same": 0, "refused": 0}
-        for seed in range(700):
+        for seed in range(400):
             chance = random.Random(seed)
             folder = shutil.copytree(good, tmp_path / f"r{seed}")
             what = hurt(folder, chance)
@@ -272,7 +272,7 @@ class TestFuzz:
             assert found in count, f"seed {seed}, {what}: {found}"
             count[found] += 1
             shutil.rmtree(folder)
-        assert count["refused"] > 500
+        assert count["refused"] > 280
 
     @pytest.mark.slow
     @pytest.mark.parametrize("name", ["record", "every"])
