@@ -7,6 +7,7 @@ from cyclopts import Parameter
 
 from shoal.cli.output import write
 from shoal.cli.progress import note
+from shoal.cli.startup import load_compiler, tell_of_compiling
 
 
 def scenario(preset: str, /, *, scale_to: str | None = None) -> None:
@@ -42,6 +43,9 @@ def check(file: str, /, *, quick: Annotated[bool, Parameter(negative=())] = Fals
     from shoal.study.check import check as notes_of
 
     loaded = load(file)
+    if not quick:
+        load_compiler()
+        tell_of_compiling(loaded)
     for each in notes_of(loaded, trials=not quick):
         note(each)
     write(

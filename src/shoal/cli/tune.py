@@ -102,9 +102,9 @@ def tune(
 
         save_figure(found.plot(width), figure)
         note(f"figure: {figure}")
-    point = found.result.winner.point
-    if point and not json_:
-        assigned = " ".join(f"--set {quote(f'{name}={value}')}" for name, value in point.items())
+    if not json_ and found.result.verdict == "better":
+        best = [f"{name}={value}" for name, value in found.result.winner.point.items()]
+        assigned = " ".join(f"--set {quote(each)}" for each in [*(assignments or []), *best])
         note(f"next: shoal run {quote(scenario)} {assigned}")
     if out:
         note(f"all runs: {out / 'search'} and {out / 'final'} (shoal results {out / 'final'})")
