@@ -12,6 +12,7 @@ import pytest
 
 from commands import shoal, wait_until
 from shoal.cli.main import BAD_INPUT
+from shoal.experiments.tune import TuneResult
 
 TUNE = ("tune", "oceans2020", "--vary", "neighbors=5:40", "--vary", "strategy.delta=0.002:0.05")
 MORE = ("--maximize", "time_on_target")
@@ -36,8 +37,15 @@ def test_start_and_best_stand_side_by_side_and_nothing_is_left(capsys):
     assert code == 0
     for words in ("start", "best", "neighbors", "in the search", "on fresh seeds", "95 % interval"):
         assert words in out
-    assert "next: shoal run oceans2020 --set neighbors=" in err or "no trial was better" in out
+    assert "no difference shown" in out
+    assert "next: shoal run" not in err
     assert not list(Path().iterdir())
+
+
+def test_the_next_command_has_what_was_said_and_what_was_found(capsys, monkeypatch):
+    monkeypatch.setattr(TuneResult, "verdict", "better")
+    err = shoal(capsys, *TUNE, *MORE, *SHORT, "--set", "network.loss=0.1")[2]
+    assert "next: shoal run oceans2020 --set network.loss=0.1 --set neighbors=" in err
 
 
 def test_json_and_a_figure(capsys):

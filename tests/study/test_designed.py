@@ -1,5 +1,7 @@
 """Designing from Python, and the page for who buys."""
 
+import html
+
 import numpy as np
 import pytest
 
@@ -10,7 +12,7 @@ from shoal.experiments.fleet_range import FleetRange
 from shoal.experiments.variable import Variable
 from shoal.study.design import DesignOptions, designed
 from shoal.study.design_page import ROWS, page
-from shoal.study.design_words import sentences, shortened
+from shoal.study.design_words import sentences, shortened, simulated
 
 FLEETS = {"BoB-1": (0, 30, 3), "BoB-0": "0:45@1"}
 RANGES = [FleetRange("BoB-1", 0, 30, 3), FleetRange("BoB-0", 0, 45, 1)]
@@ -55,8 +57,20 @@ class TestWords:
         found = designed("oceans2020", (RANGES, []), {"steps": 50}, options, executor=runs_of(luck), report=None)
         assert "does not tell how many BoB-0 one BoB-1 is worth" in repr(found)
 
+    def test_where_the_front_runs_along_what_was_allowed_it_is_said(self):
+        told = [each for each in sentences(found_with(0.8).result) if "the most that were allowed" in each]
+        assert len(told) == 1  # the slow are the better buy: whoever wants more than 45 of them can give must buy fast
+        assert " have 45 BoB-0, " in told[0]
+        assert "allowed" not in " ".join(sentences(found_with(6.0).result))
+
 
 class TestPage:
+    def test_says_what_was_simulated(self, found):
+        told = simulated(found.result)
+        for words in ("BoB-1 of 2.6 m/s at 3 each", "BoB-0 of 1 m/s at 1 each", "knn-pso", "time on target [share]: "):
+            assert words in told
+        assert told in html.unescape(page("mine", found.result, "x.png"))
+
     def test_has_the_front_and_the_own_fleet_but_no_more_rows_than_fit(self, found):
         kept = shortened(found.result, ROWS)
         assert sum(each.present for each in kept) == 1

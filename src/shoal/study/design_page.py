@@ -10,7 +10,7 @@ from shoal.core.files import write_atomic
 from shoal.core.text import plain
 from shoal.core.version import RESULTS_VERSION, VERSION
 from shoal.experiments.fleet_front import FleetFront
-from shoal.study.design_words import buying, names_of, searches, shortened, spread
+from shoal.study.design_words import buying, names_of, searches, shortened, simulated, spread
 from shoal.study.searching import shown
 
 if TYPE_CHECKING:
@@ -79,6 +79,7 @@ def page(scenario: str, result: FleetFront, picture: str) -> str:
         f"<title>{_text(title)}</title>\n<style>{CSS}</style>\n</head>\n<body>\n<header>\n<h1>{_text(title)}</h1>\n"
         f'<p class="soft">{_text(search.scenario.description)}</p>\n</header>\n<main>\n<ul>{told}</ul>\n'
         f'<img src="{picture}" alt="{_text(_described(result))}">\n{_table(result)}\n'
+        f'<h2>What was simulated</h2>\n<p class="soft">{_text(simulated(result))}</p>\n'
         f'<h2>How this was found</h2>\n<p class="soft">{_text(method)}</p>\n<p class="soft">{_text(facts)}</p>\n'
         "</main>\n</body>\n</html>\n"
     )

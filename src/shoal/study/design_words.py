@@ -8,6 +8,8 @@ import numpy as np
 from shoal.experiments.exchange_rate import ExchangeRate
 from shoal.experiments.fleet_front import Alternative, FleetFront
 from shoal.experiments.front import Spread
+from shoal.metrics.summary import METRICS
+from shoal.record.names import label_of
 from shoal.record.words import UNKNOWN, told
 
 
@@ -24,7 +26,7 @@ def sentences(result: FleetFront) -> list[str]:
 
 def buying(result: FleetFront) -> list[str]:
     """Return what matters to whoever buys: the present fleet, what there is for its cost, exchange rates."""
-    return [_present(result), *_instead(result), *exchange(result)]
+    return [_present(result), *_instead(result), *exchange(result), *_at_the_most(result)]
 
 
 def exchange(result: FleetFront) -> Iterator[str]:
@@ -46,6 +48,35 @@ def exchange(result: FleetFront) -> Iterator[str]:
             continue
         ratio = price / cheap
         yield f"{told} and costs {_short(ratio)} times as much: {_buy(rate, ratio, names[fleet], base)}."
+
+
+def _at_the_most(result: FleetFront) -> Iterator[str]:
+    """Fleets of which much of the front has as many as were allowed: it would go on elsewhere if there were more."""
+    names = names_of(result)
+    for allowed in result.search.fleets:
+        place = names.index(allowed.name)
+        full = sum(each.counts[place] == allowed.most for each in result.front)
+        if not allowed.fixed and full * 3 >= len(result.front) and full > 1:
+            yield (
+                f"{full} of the {len(result.front)} fleets of the front have {allowed.most} {allowed.name}, the most "
+                "that were allowed: with more of them the front would be another one."
+            )
+
+
+def simulated(result: FleetFront) -> str:
+    """What was simulated: kinds of agents and their prices, what they do, whom they hear, and what was counted."""
+    search, costs = result.search, result.costs
+    kinds = ", ".join(
+        f"{each.name} of {each.max_speed:.3g} m/s" + (f" at {amount(cost)} each" if cost else "")
+        for each, cost in zip(search.scenario.fleets, costs, strict=True)
+    )
+    strategies = dict.fromkeys((each.strategy or search.scenario.strategy).name for each in search.scenario.fleets)
+    k = f", each hears the {search.scenario.network.neighbors} nearest"
+    looked_for = "neighbors" in [each.field for each in search.variables]
+    goals = "; ".join(
+        f"{label_of(each.metric)}: {METRICS[each.metric].sentence}" for each in (search.more, search.less)
+    )
+    return f"{kinds}. They follow the strategy {' and '.join(strategies)}{'' if looked_for else k}. {goals}."
 
 
 def names_of(result: FleetFront) -> list[str]:
