@@ -53,10 +53,10 @@ def draw_scale_bar(axes: "Axes", area: Area, points: npt.NDArray[np.float64]) ->
 
     x, y = min(corners, key=hidden)  # the first of equals: lower left
     box = {"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
-    axes.plot([x, x + length], [y, y], color=INK, linewidth=2.0, solid_capstyle="butt", zorder=8, gid="scale-bar")
+    axes.plot([x, x + length], [y, y], color=INK, linewidth=2.0, solid_capstyle="butt", zorder=1.3, gid="scale-bar")
     axes.annotate(
         length_text(length), (x + length / 2, y), (0, 3), textcoords="offset points", ha="center", va="bottom",
-        fontsize=8, color=INK, bbox=box, zorder=8,
+        fontsize=8, color=INK, bbox=box, zorder=1.2,
     )  # fmt: skip
 
 

@@ -72,7 +72,7 @@ class CurrentArrows:
         )  # fmt: skip
         axes.annotate(
             f"current, at most {self.fastest:.2g} m/s", (-area.width / 2, area.height / 2), (5, -6), va="top",
-            textcoords="offset points", fontsize=7, color=INK, zorder=8,
+            textcoords="offset points", fontsize=7, color=INK, zorder=1.3,
             bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.75},
         )  # fmt: skip
         self.artists = [self._arrows]
@@ -99,7 +99,7 @@ def draw_graticule(axes: "Axes", area: Area) -> None:
     half_x, half_y = area.width / 2, area.height / 2
     style: dict[str, Any] = {"color": GRAY, "linewidth": 0.4, "linestyle": (0, (1, 3)), "zorder": 0.55}
     box = {"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
-    labels: dict[str, Any] = {"fontsize": 6.5, "color": INK, "textcoords": "offset points", "bbox": box, "zorder": 7}
+    labels: dict[str, Any] = {"fontsize": 6.5, "color": INK, "textcoords": "offset points", "bbox": box, "zorder": 1.3}  # below agents and paths
     for line in graticule(Frame(area.origin), half_x, half_y):
         axes.plot(line.x, line.y, **style)
         if line.meridian and -0.55 * half_x < line.edge < 0.8 * half_x:  # beside the scale bar
@@ -107,6 +107,6 @@ def draw_graticule(axes: "Axes", area: Area) -> None:
         elif not line.meridian and abs(line.edge) < 0.97 * half_y:
             axes.annotate(line.words, (half_x, line.edge), (-2, 1), ha="right", va="bottom", **labels)
     axes.annotate(
-        "N", (0.985, 0.985), (0.985, 0.9), xycoords="axes fraction", textcoords="axes fraction", fontsize=8, color=INK,
-        ha="center", va="center", arrowprops={"arrowstyle": "-|>", "color": INK}, zorder=8, gid="north",
+        "N", (0.97, 0.985), (0.97, 0.9), xycoords="axes fraction", textcoords="axes fraction", fontsize=8, color=INK,
+        ha="center", va="center", arrowprops={"arrowstyle": "-|>", "color": INK}, zorder=1.3, gid="north",
     )  # fmt: skip
