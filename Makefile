@@ -20,7 +20,7 @@ help:
 	@echo "make soak      fleets under a seeded adversary on all cores for MINUTES=60; ends with the seed of the first failure"
 	@echo "make notebook  the notebook of the docs anew, as results change"
 	@echo "make docs      the docs as a site in site/, with search; installs zensical into .docs/; a warning or a dead link is an error"
-	@echo "make docs-open every page of it in a browser without a network (needs chromium)"
+	@echo "make docs-open every page of it in a browser without a network (needs chromium); after make web, axe-core looks at it, too"
 	@echo "make web       the viewer's page from its sources (needs npm; users do not)"
 	@echo "make licenses  the table of THIRD_PARTY.md anew, from what is installed"
 	@echo "make dist      sdist and wheel in dist/; BASE=https://.../blob/main makes the links of README absolute"
@@ -81,7 +81,7 @@ docs: $(DOCS)/.installed
 	$(DOCS)/bin/python docs/tools/dead_links.py site
 
 docs-open: docs $(VENV)/.installed
-	$(BIN)/python docs/tools/open_site.py site
+	$(BIN)/python docs/tools/open_site.py site $(if $(wildcard web/node_modules/axe-core),--axe)
 
 web:
 	cd web && npm ci --no-audit --no-fund && npm run lint && npm test && npm run build

@@ -1,8 +1,8 @@
-"""Open every page of a site in a browser that reaches no other host: python docs/tools/open_site.py FOLDER.
+"""Open every page of a site in a browser that reaches no other host: python docs/tools/open_site.py FOLDER [--axe].
 
 Needs playwright and a chromium. Exit code 1 and a line each if a page asks for what is not there, or elsewhere, or has
-an error in its scripts, or if the search finds nothing; and, where axe-core is installed (`npm ci` in web/), for what
-it finds on a page, light or dark.
+an error in its scripts, or if the search finds nothing; with --axe, for what axe-core finds on a page, light or dark:
+`npm ci` in web/ installs it, and it takes some minutes.
 """
 
 import re
@@ -23,7 +23,7 @@ FINDINGS = """() => axe.run(document, {resultTypes: ["violations"]}).then(({viol
     violations.map(({id, nodes}) => `${id}: ${nodes.slice(0, 3).map(({html}) => html.slice(0, 160)).join(" | ")}`))"""
 
 
-def main(folder: Path) -> int:
+def main(folder: Path, axe: bool) -> int:
     """Print each fault; return the exit code."""
     files = [file for file in sorted(folder.resolve().rglob("*.html")) if file.name != "404.html"]  # needs a server
     with sync_playwright() as engine:
@@ -31,13 +31,12 @@ def main(folder: Path) -> int:
         chromium = next((path for path in [own, *CHROMIUM] if path.exists()), None)
         browser = engine.chromium.launch(executable_path=chromium, args=ARGUMENTS)
         found = list(faults(browser, files))
-        found += [each for scheme in SCHEMES for each in unreadable(browser, files, scheme)] if AXE.exists() else []
+        found += [each for scheme in SCHEMES for each in unreadable(browser, files, scheme)] if axe else []
         found += [] if finds(browser, folder.resolve() / "index.html") else [f"search: finds no {WORD}"]
         browser.close()
     for fault in found:
         print(fault)
-    scanned = "axe-core looked at all of them, light and dark" if AXE.exists() else "axe-core is not installed"
-    print(f"{len(files)} pages opened, {len(found)} faults; {scanned}")
+    print(f"{len(files)} pages opened{', and looked at by axe-core' if axe else ''}, {len(found)} faults")
     return int(bool(found))
 
 
@@ -95,4 +94,4 @@ def finds(browser: Browser, file: Path) -> bool:
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1])))
+    sys.exit(main(Path(sys.argv[1]), "--axe" in sys.argv[2:]))
