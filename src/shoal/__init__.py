@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from shoal.core.errors import ShoalError
     from shoal.core.messages import Reading, Report
     from shoal.core.units import Degrees, Doc, Follows, Meters, MetersPerSecond, Range, Seconds
-    from shoal.experiments.paired import paired_difference
     from shoal.metrics.contract import Measurement, Metric, Sum
     from shoal.paper.reproduce import reproduce
     from shoal.record.files import open_record, save_record
@@ -56,7 +55,7 @@ if TYPE_CHECKING:
     from shoal.study.compared import compare
     from shoal.study.design import design
     from shoal.study.listing import list_metrics, list_presets, list_strategies
-    from shoal.study.results import load_results
+    from shoal.study.results import load_results, paired_difference
     from shoal.study.swept import sweep
     from shoal.study.tune import tune
 
@@ -66,7 +65,6 @@ _HOMES = {
     "shoal.core.errors": ("ShoalError",),
     "shoal.core.messages": ("Reading", "Report"),
     "shoal.core.units": ("Degrees", "Meters", "MetersPerSecond", "Range", "Doc", "Follows", "Seconds"),
-    "shoal.experiments.paired": ("paired_difference",),
     "shoal.metrics.contract": ("Measurement", "Metric", "Sum"),
     "shoal.paper.reproduce": ("reproduce",),
     "shoal.record.files": ("open_record", "save_record"),
@@ -83,7 +81,7 @@ _HOMES = {
     "shoal.study.compared": ("compare",),
     "shoal.study.design": ("design",),
     "shoal.study.listing": ("list_metrics", "list_presets", "list_strategies"),
-    "shoal.study.results": ("load_results",),
+    "shoal.study.results": ("load_results", "paired_difference"),
     "shoal.study.swept": ("sweep",),
     "shoal.study.tune": ("tune",),
 }

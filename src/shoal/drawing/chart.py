@@ -99,7 +99,8 @@ def draw_graticule(axes: "Axes", area: Area) -> None:
     half_x, half_y = area.width / 2, area.height / 2
     style: dict[str, Any] = {"color": GRAY, "linewidth": 0.4, "linestyle": (0, (1, 3)), "zorder": 0.55}
     box = {"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
-    labels: dict[str, Any] = {"fontsize": 6.5, "color": INK, "textcoords": "offset points", "bbox": box, "zorder": 1.3}  # below agents and paths
+    # below agents and paths
+    labels: dict[str, Any] = {"fontsize": 6.5, "color": INK, "textcoords": "offset points", "bbox": box, "zorder": 1.3}
     for line in graticule(Frame(area.origin), half_x, half_y):
         axes.plot(line.x, line.y, **style)
         if line.meridian and -0.55 * half_x < line.edge < 0.8 * half_x:  # beside the scale bar

@@ -1,8 +1,9 @@
-"""The runs of a sweep's folder as a DataFrame."""
+"""The runs of a sweep's folder as a DataFrame, and how two points of it differ."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from shoal.experiments.paired import paired_difference as paired_difference
 from shoal.experiments.results import read_rows
 from shoal.record.tables import data_frame
 
