@@ -11,7 +11,7 @@ from scenarios import scenario
 from shoal.cli.learn import _Progress
 from shoal.core.errors import MissingExtraError
 from shoal.learn.search import Generation
-from shoal.learn.train import Best, Stopped, Terms, train
+from shoal.learn.train import Kept, Stopped, Terms, train
 from shoal.run.simulation import Simulation
 
 pytest.importorskip("cmaes", reason="learning needs cmaes: pip install '.[learn]'")
@@ -60,7 +60,7 @@ def test_an_interrupt_keeps_the_best_and_says_what_it_measured_of_it(learned, tm
     file = tmp_path / "stopped.py"
     with pytest.raises(Stopped) as stopped:
         train(str(learned.file), "oceans2020", file, terms=QUICK, report=stop)
-    best = stopped.value.best
+    best = stopped.value.kept
     kept = scenario("oceans2020", {"strategy": {"file": str(file)}}).strategy
     assert kept.name == "stopped"
     assert list(kept.params.values()) == pytest.approx(list(best.weights), rel=1e-15)
@@ -75,15 +75,15 @@ def test_another_interrupt_leaves_the_comparison_out(learned, tmp_path, monkeypa
     monkeypatch.setattr("shoal.learn.train._best_of", stop)
     with pytest.raises(Stopped) as stopped:
         train(str(learned.file), "oceans2020", tmp_path / "stopped.py", terms=QUICK, report=stop)
-    assert stopped.value.best is None
+    assert stopped.value.kept is None
 
 
 @pytest.mark.parametrize(
     ("best", "said"),
     [
         (None, r"which was not compared with the start; to judge it: shoal compare \S+stopped.py"),
-        (Best([], 0.931, 0.921, True), r"0.931 of the time on target, 0.921 at the start, in 8 runs .* optimistic; to"),
-        (Best([], 0.921, 0.921, False), r"1 generations found nothing better than the start \(0.921 .* holds"),
+        (Kept([], 0.931, 0.921, True), r"0.931 of the time on target, 0.921 at the start, in 8 runs .* optimistic; to"),
+        (Kept([], 0.921, 0.921, False), r"1 generations found nothing better than the start \(0.921 .* holds"),
     ],
 )
 def test_the_command_says_before_it_compiles_and_what_it_kept(best, said, learned, tmp_path, monkeypatch, capsys):
@@ -131,3 +131,10 @@ def test_without_the_library_one_sentence_says_what_to_install(learned, tmp_path
     monkeypatch.setitem(__import__("sys").modules, "cmaes", None)
     with pytest.raises(MissingExtraError, match=r"pip install '\.\[learn\]'"):
         train(str(learned.file), "oceans2020", tmp_path / "mine.py", terms=QUICK)
+
+
+def test_the_template_is_no_strategy_and_whoever_runs_it_is_told_what_is(capsys):
+    for words in (["run", "oceans2020", "--strategy", "linear"], ["compare", "linear", "knn-pso"]):
+        code, _, err = shoal(capsys, *words)
+        assert code == 2
+        assert "linear is a template: `shoal learn linear` makes learned.py of it" in err

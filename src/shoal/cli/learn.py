@@ -92,7 +92,7 @@ def _what_is_kept(stopped: "Stopped", out: Path, scenario: str) -> str:
     """What the file holds after an interrupt, and how to judge it."""
     from shoal.learn.train import COMPARED
 
-    best, place = stopped.best, "" if scenario == "oceans2020" else f" --scenario {scenario}"
+    best, place = stopped.kept, "" if scenario == "oceans2020" else f" --scenario {scenario}"
     judge = f"to judge it: shoal compare {out} knn-pso encircle --runs 20{place}"
     if best is None:
         what = f"holds what {stopped.generations} generations found, which was not compared with the start"

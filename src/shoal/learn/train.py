@@ -24,9 +24,8 @@ from shoal.run.compiling import mark_compiled
 from shoal.run.simulation import Simulation
 from shoal.scenario.load import Source, load
 from shoal.scenario.schema import Scenario
-from shoal.strategies import CATALOGUE
+from shoal.strategies import CATALOGUE, TEMPLATES
 
-TEMPLATES = ("linear",)
 JUDGED = 10  # fresh runs, four times as long, that say what was learned
 COMPARED = 8  # runs by which the last centers, and the start, are compared
 _LATEST = 3  # centers that are
@@ -73,7 +72,7 @@ class Terms:
     vary: tuple[str, ...] = ()
 
 
-class Best(NamedTuple):
+class Kept(NamedTuple):
     """The best of the start and the last centers, by the search's own runs: they flatter what they choose.
 
     weights : (W,); score, start : time on target of it and of the start; is_better : than the start
@@ -91,12 +90,12 @@ class Stopped(KeyboardInterrupt):
     Attributes
     ----------
     interrupt : it; generations : that were done
-    best : what the file holds, None if it holds the last center, which nothing was compared with
+    kept : what the file holds, None if it holds the last center, which nothing was compared with
     """
 
-    def __init__(self, interrupt: KeyboardInterrupt, generations: int, best: Best | None) -> None:
+    def __init__(self, interrupt: KeyboardInterrupt, generations: int, kept: Kept | None) -> None:
         super().__init__(*interrupt.args)
-        self.interrupt, self.generations, self.best = interrupt, generations, best
+        self.interrupt, self.generations, self.kept = interrupt, generations, kept
 
 
 def train(
@@ -138,7 +137,7 @@ def train(
         Simulation(chosen)  # compiles
         mark_compiled(chosen)
         centers: list[Weights] = []
-        best: Best | None = None
+        best: Kept | None = None
         stopped: KeyboardInterrupt | None = None
         begun = time.process_time()
 
@@ -179,11 +178,11 @@ def train(
     return Learned(out, name, before, after, _named(weights, best.weights), len(centers), best.is_better)
 
 
-def _best_of(runs: Runs, candidates: Sequence[Weights], seed: int, unused: int, steps: int) -> Best:
+def _best_of(runs: Runs, candidates: Sequence[Weights], seed: int, unused: int, steps: int) -> Kept:
     """The best of some weights, of which the first are the start's, in runs from `unused` on."""
     scores = runs.scores(candidates, seed, range(unused, unused + COMPARED), steps).mean(axis=1)
     best = int(scores.argmax())
-    return Best(candidates[best], float(scores[best]), float(scores[0]), best > 0)
+    return Kept(candidates[best], float(scores[best]), float(scores[0]), best > 0)
 
 
 @contextmanager
