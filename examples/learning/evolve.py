@@ -46,7 +46,7 @@ def main(generations):
         tried = center + SPREAD * rng.standard_normal((SWARMS, *center.shape))
         found = scores(env, tried, [100 + generation] * SWARMS)  # the same chance for all
         center = tried[np.argsort(-found)[:PARENTS]].mean(axis=0)
-        print(f"generation {generation}: {found.mean():.3f} of the time on target, its best {found.max():.3f}", flush=True)
+        print(f"generation {generation}: {found.mean():.3f} on target, its best {found.max():.3f}", flush=True)
     before, after = (fresh(env, each) for each in (0 * center, center))
     print(f"a fresh seed: {before:.3f} before, {after:.3f} after")
 
