@@ -87,7 +87,8 @@ def test_the_code_of_the_page_on_learning_runs():
     pytest.importorskip("pettingzoo", reason="environments need pip install '.[rl]'")
     pytest.importorskip("gymnasium", reason="environments need pip install '.[rl]'")
     page = (ROOT / "docs/how-to/learn.md").read_text(encoding="utf-8")
-    agents, swarms, _ = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
+    blocks = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
+    agents, swarms = (next(each for each in blocks if kind in each) for kind in ("ParallelEnv(", "VectorEnv("))
     scope = {}
     exec(agents.replace("steps=1000", "steps=20"), scope)
     assert scope["env"].agents == []

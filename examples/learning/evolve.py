@@ -36,6 +36,7 @@ def fresh(env, weights):
 
 
 def main(generations):
+    print("compiling: a minute or two the first time", flush=True)
     scenario = shoal.load("oceans2020", neighbors=8, steps=STEPS + 1)
     knows = Observe(own=("on_target", "max_speed"), report=("on_target",))
     env = VectorEnv(scenario, SWARMS, observe=knows, act=Act(kind="repulsion"))
@@ -45,7 +46,7 @@ def main(generations):
         tried = center + SPREAD * rng.standard_normal((SWARMS, *center.shape))
         found = scores(env, tried, [100 + generation] * SWARMS)  # the same chance for all
         center = tried[np.argsort(-found)[:PARENTS]].mean(axis=0)
-        print(f"generation {generation}: {found.mean():.3f} of the time on target, the best {found.max():.3f}")
+        print(f"generation {generation}: {found.mean():.3f} on target, its best {found.max():.3f}", flush=True)
     before, after = (fresh(env, each) for each in (0 * center, center))
     print(f"a fresh seed: {before:.3f} before, {after:.3f} after")
 

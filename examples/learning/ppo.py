@@ -2,12 +2,14 @@
 
     python examples/learning/ppo.py [seconds]
 
+It writes network_as_strategy.npz, with which network_as_strategy.py, beside it, is a strategy like any other.
 Schulman et al., "Proximal Policy Optimization Algorithms", arXiv 1707.06347; every buoy of every swarm is a sample.
 """
 
 import sys
 import time
 from functools import partial
+from pathlib import Path
 
 import jax
 import jax.numpy as jnp
@@ -19,6 +21,7 @@ from shoal.learn.env import Observe, VectorEnv
 SWARMS, ROLLOUT, EPOCHS, BATCH = 16, 64, 4, 6400
 DISCOUNT, SMOOTHING, CLIP, RATE, ENTROPY = 0.97, 0.95, 0.2, 5e-4, 1e-3
 HIDDEN = 64
+FILE = Path(__file__).with_name("network_as_strategy.npz")
 
 
 def network(key, sizes):
@@ -50,12 +53,17 @@ def act(policy, known, key):
 
 
 def rollout(env, policy, key):
-    """What all buoys knew, did, how likely that was, how much better it was than thought, and its worth: (S, ...)."""
+    """What all buoys knew, did, how likely that was, how much better it was than thought, and its worth: (S, ...).
+
+    Also the share of steps with a buoy on target.
+    """
+    on_target = 0.0
     episodes, rows = env.episodes, []
     for each in jax.random.split(key, ROLLOUT):
         known = episodes.observations.copy()
         done, chance, worth = act(policy, known, each)
         _, _, _, truncated, _ = env.step(np.clip(done, -1.0, 1.0))
+        on_target += env.episodes.terms[:, 0, 0].mean() / ROLLOUT
         rows.append((known, done, chance, worth, episodes.rewards.copy(), truncated[:, None]))
     known, done, chance, worth, rewards, ends = (np.stack(column) for column in zip(*rows, strict=True))
     after, gain, gains = np.asarray(act(policy, episodes.observations, key)[2]), 0.0, np.zeros_like(worth)
@@ -63,7 +71,8 @@ def rollout(env, policy, key):
         after = np.where(ends[t], worth[t], after)
         gain = rewards[t] + DISCOUNT * after - worth[t] + DISCOUNT * SMOOTHING * ~ends[t] * gain
         gains[t], after = gain, worth[t]
-    return tuple(each.reshape(-1, *each.shape[3:]) for each in (known, done, chance, gains, gains + worth))
+    samples = (known, done, chance, gains, gains + worth)
+    return tuple(each.reshape(-1, *each.shape[3:]) for each in samples), on_target
 
 
 def loss(policy, known, done, chance, gains, returns):
@@ -110,7 +119,17 @@ def time_on_target(env, policy, steps=500):
     return total / steps
 
 
+def save(policy, scenario):
+    """Write the actor's layers, and what counted as 1, for network_as_strategy.py."""
+    layers = {}
+    for n, (weights, bias) in enumerate(policy["actor"]):
+        layers |= {f"w{n}": weights, f"b{n}": bias}
+    length = max(scenario.area.width, scenario.area.height) / 2
+    np.savez(FILE, length=length, speed=max(fleet.max_speed for fleet in scenario.fleets), **layers)
+
+
 def main(seconds):
+    print("compiling: a minute or more the first time", flush=True)
     scenario = shoal.load("oceans2020", neighbors=8, steps=1000)
     reward = {"time_on_target": 0.2, "engaged": 1.0}
     env = VectorEnv(scenario, SWARMS, observe=Observe(reports=8), reward=reward, copy=False)
@@ -123,15 +142,20 @@ def main(seconds):
         "spread": jnp.full(does, -0.5),
     }
     moments = (jax.tree.map(jnp.zeros_like, policy), jax.tree.map(jnp.zeros_like, policy), jnp.array(0.0))
-    print(f"untrained: {time_on_target(env, policy):.3f} of the time on target")
+    print(f"untrained: {time_on_target(env, policy):.3f} of the time on target", flush=True)
     env.reset(seed=1)
     begun, rounds = time.process_time(), 0
     while time.process_time() - begun < seconds:
         key, each = jax.random.split(key)
-        policy, moments = learn(policy, moments, rollout(env, policy, each), rng)
+        samples, on_target = rollout(env, policy, each)
+        policy, moments = learn(policy, moments, samples, rng)
         rounds += 1
-    samples = rounds * ROLLOUT * SWARMS * scenario.agents
-    print(f"trained on {samples:,} steps of buoys: {time_on_target(env, policy):.3f}")
+        if rounds % 10 == 0:
+            used = time.process_time() - begun
+            print(f"{used:.0f} of {seconds:g} s: {rounds} updates, {on_target:.3f} on target, with noise", flush=True)
+    save(policy, scenario)
+    steps = rounds * ROLLOUT * SWARMS * scenario.agents
+    print(f"trained on {steps:,} steps of buoys: {time_on_target(env, policy):.3f}; weights: {FILE}")
 
 
 if __name__ == "__main__":

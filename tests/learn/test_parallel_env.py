@@ -49,6 +49,36 @@ def test_agents_that_are_lost_are_terminated_and_the_last_ends_the_episode():
     assert left == [50] * 4 + [20] * 4 + [0]
 
 
+@pytest.mark.parametrize("chosen", [CHOSEN, LOSING], ids=["as-it-is", "losing"])
+def test_the_state_is_what_is_true_of_all_agents_and_targets(chosen):
+    env = ParallelEnv(chosen)
+    env.reset(seed=1)
+    places = []
+    for _ in range(6):
+        env.step({agent: np.array([0.6, -0.2]) for agent in env.agents})
+        state, swarm = env.state(), env.episodes.swarms.swarm(0)
+        assert state in env.state_space
+        assert (state.shape, state.dtype) == ((5 * 50 + 3,), np.float32)
+        x, y, vx, vy, there = state[:250].reshape(50, 5).T
+        alive = swarm.alive[:50] > 0
+        assert there.tolist() == alive.tolist()
+        for each, true, unit in ((x, swarm.x, 10.0), (y, swarm.y, 10.0), (vx, swarm.vx, 2.6), (vy, swarm.vy, 2.6)):
+            assert each * unit == pytest.approx(true[:50] * alive, abs=1e-5)
+        places.append(state[250:252] * 10.0)
+        assert state[252] == 1.0
+    assert np.hypot(*np.diff(places, axis=0).T) == pytest.approx(0.3, abs=1e-5)  # 3 m/s
+    assert (there.sum() == 20) == (chosen is LOSING)
+
+
+def test_the_state_of_a_target_that_nobody_can_see_is_zeros():
+    diving = {"targets.0.surface_time": 0.1, "targets.0.dive_time": 100.0, "steps": 20}
+    env = ParallelEnv(scenario("oceans2020", diving))
+    env.reset(seed=1)
+    for _ in range(10):
+        env.step({agent: np.zeros(2) for agent in env.agents})
+    assert env.state()[250:].tolist() == [0.0, 0.0, 0.0]
+
+
 def test_actions_of_others_and_a_step_too_many_are_refused():
     env = ParallelEnv(CHOSEN)
     with pytest.raises(LearnError, match="begin another one"):

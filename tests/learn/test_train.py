@@ -1,13 +1,17 @@
 """What is learned is a strategy file that runs everywhere."""
 
+import re
+
 import numpy as np
 import pytest
 
 from buoys import differences, tape_of
 from commands import shoal
 from scenarios import scenario
+from shoal.cli.learn import _Progress
 from shoal.core.errors import MissingExtraError
-from shoal.learn.train import Terms, train
+from shoal.learn.search import Generation
+from shoal.learn.train import Kept, Stopped, Terms, train
 from shoal.run.simulation import Simulation
 
 pytest.importorskip("cmaes", reason="learning needs cmaes: pip install '.[learn]'")
@@ -48,15 +52,57 @@ def test_the_fresh_runs_are_those_of_the_next_seed(learned):
     assert learned.learned.runs[3] == pytest.approx(tally.on_target.sum() / tally.present.sum())
 
 
-def test_an_interrupt_keeps_what_was_found(learned, tmp_path):
-    def stop(generation, share):
-        raise KeyboardInterrupt
+def stop(*_):
+    raise KeyboardInterrupt
 
+
+def test_an_interrupt_keeps_the_best_and_says_what_it_measured_of_it(learned, tmp_path):
     file = tmp_path / "stopped.py"
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(Stopped) as stopped:
         train(str(learned.file), "oceans2020", file, terms=QUICK, report=stop)
-    assert scenario("oceans2020", {"strategy": {"file": str(file)}}).strategy.name == "stopped"
+    best = stopped.value.kept
+    kept = scenario("oceans2020", {"strategy": {"file": str(file)}}).strategy
+    assert kept.name == "stopped"
+    assert list(kept.params.values()) == pytest.approx(list(best.weights), rel=1e-15)
+    assert stopped.value.generations == 1
+    assert best.is_better == (best.score > best.start)
+    assert not best.is_better or list(kept.params.values()) != list(learned.weights.values())
+    assert 0.8 < best.start <= best.score <= 1.0
     assert [each.name for each in tmp_path.glob("*.*")] == ["stopped.py"]
+
+
+def test_another_interrupt_leaves_the_comparison_out(learned, tmp_path, monkeypatch):
+    monkeypatch.setattr("shoal.learn.train._best_of", stop)
+    with pytest.raises(Stopped) as stopped:
+        train(str(learned.file), "oceans2020", tmp_path / "stopped.py", terms=QUICK, report=stop)
+    assert stopped.value.kept is None
+
+
+@pytest.mark.parametrize(
+    ("best", "said"),
+    [
+        (None, r"which was not compared with the start; to judge it: shoal compare \S+stopped.py"),
+        (Kept([], 0.931, 0.921, True), r"0.931 of the time on target, 0.921 at the start, in 8 runs .* optimistic; to"),
+        (Kept([], 0.921, 0.921, False), r"1 generations found nothing better than the start \(0.921 .* holds"),
+    ],
+)
+def test_the_command_says_before_it_compiles_and_what_it_kept(best, said, learned, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr("shoal.cli.learn.tell_of_compiling", lambda chosen: told.append(chosen.strategy.name))
+    monkeypatch.setattr("shoal.cli.learn._Progress.__call__", stop)
+    monkeypatch.setattr("shoal.learn.train._best_of", (lambda *_: best._replace(weights=weights)) if best else stop)
+    told, weights = [], np.array(list(learned.weights.values()))
+    code, out, err = shoal(capsys, "learn", learned.file, "--out", tmp_path / "stopped.py", "--jobs", 1, "--steps", 500)
+    assert (code, out, told) == (130, "", ["my-policy"])
+    assert re.search(said, err)
+
+
+def test_progress_shows_the_best_so_far(monkeypatch, capsys):
+    monkeypatch.setattr("shoal.cli.learn.SECONDS_BETWEEN_LINES", 0.0)
+    progress = _Progress()
+    for number, best in enumerate((0.953, 0.931), 1):
+        progress(Generation(number, 0.6, best, np.zeros(2)), 0.1 * number)
+    *_, last = capsys.readouterr().err.splitlines()
+    assert last.endswith("20 %: generation 2, its candidates 0.600 on target, the best so far 0.953")
 
 
 @pytest.mark.parametrize(
@@ -85,3 +131,10 @@ def test_without_the_library_one_sentence_says_what_to_install(learned, tmp_path
     monkeypatch.setitem(__import__("sys").modules, "cmaes", None)
     with pytest.raises(MissingExtraError, match=r"pip install '\.\[learn\]'"):
         train(str(learned.file), "oceans2020", tmp_path / "mine.py", terms=QUICK)
+
+
+def test_the_template_is_no_strategy_and_whoever_runs_it_is_told_what_is(capsys):
+    for words in (["run", "oceans2020", "--strategy", "linear"], ["compare", "linear", "knn-pso"]):
+        code, _, err = shoal(capsys, *words)
+        assert code == 2
+        assert "linear is a template: `shoal learn linear` makes learned.py of it" in err

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 
 from shoal.experiments.executors import Done, Executor, Task
-from shoal.run.compiling import mark_compiled, needs_compiling
+from shoal.run.compiling import engine_is_compiled, mark_compiled, needs_compiling
 from shoal.run.simulation import Simulation
 from shoal.scenario.crew import crew_of
 
@@ -24,7 +24,8 @@ def compiled_first(execute: Executor, tell: Callable[[str], None]) -> Executor:
         scenarios = {crew_of(cell.scenario).params.__class__: cell.scenario for cell, _ in wanted}
         pending = [each for each in scenarios.values() if needs_compiling(each)]
         for number, scenario in enumerate(pending, 1):
-            tell(f"compiling {crew_of(scenario).name} ({number} of {len(pending)}, some seconds each)")
+            long = "some seconds each" if engine_is_compiled() else "and the engine, once: a minute or so"
+            tell(f"compiling {crew_of(scenario).name} ({number} of {len(pending)}, {long})")
             Simulation(scenario).advance(1)
             mark_compiled(scenario)
         yield from execute(wanted)

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from shoal.core.errors import ScenarioError, did_you_mean
+from shoal.core.errors import ScenarioError
 from shoal.strategies import CATALOGUE
-from shoal.strategies.plugins import find_strategy, load_strategies
+from shoal.strategies.plugins import find_strategy, load_strategies, meant_by
 
 LATTICE = "lattice"  # what standing still gives: in every comparison
 
@@ -81,7 +81,7 @@ def _contender(choice: str) -> Contender:
     else:
         owner = find_strategy(choice)
     if owner is None:
-        hint = did_you_mean(choice, CATALOGUE)
+        hint = meant_by(choice, CATALOGUE)
         known = ", ".join(sorted(CATALOGUE))
         raise ScenarioError(choice, "no strategy is called so", f"{hint}strategies: {known}; or a file: ./mine.py")
     return Contender(owner.name, choice, owner.informed)

@@ -108,6 +108,21 @@ class Episodes:
         """Which agents of a swarm are lost for good, (N,)."""
         return np.asarray(self.swarms.swarm(e).leaves[: self.scenario.agents] <= self.swarms.number[e])
 
+    def state(self, e: int = 0) -> npt.NDArray[np.float32]:
+        """What is true of swarm e, which no buoy knows: for a critic that sees all, not for policies; (5 N + 3 T,).
+
+        Of each agent x, y, vx, vy and whether it is there, then of each target x, y and whether it is present. Places
+        are shares of half the area's longer side, velocities of the fastest fleet's top speed, as in observations, but
+        not cut; of who is not there all is 0. How a target moves is the difference between two states.
+        """
+        swarm, targets, agents = self.swarms.swarm(e), self.swarms.targets(e), self.scenario.agents
+        length, speed = self.observed.per_length, self.observed.per_speed
+        there, present = swarm.alive[:agents] > 0.0, targets["present"] > 0
+        own = [swarm.x * length, swarm.y * length, swarm.vx * speed, swarm.vy * speed]
+        about = np.array([*(each[:agents] for each in own), np.ones(agents)]) * there
+        aims = np.array([targets["x"] * length, targets["y"] * length, np.ones(len(targets))]) * present
+        return np.concatenate([about.T.ravel(), aims.T.ravel()]).astype(np.float32)
+
     def _begin(self, e: int) -> None:
         if self._begun[e]:
             self.runs[e] += self._stride

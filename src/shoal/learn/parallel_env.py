@@ -8,7 +8,7 @@ import numpy as np
 from shoal.learn.episodes import Episodes
 from shoal.learn.errors import LearnError
 from shoal.learn.libraries import PETTINGZOO_PARALLEL_ENV, needed
-from shoal.learn.spaces import action_box, observation_box
+from shoal.learn.spaces import action_box, observation_box, state_box
 from shoal.learn.spec import Act, Observe
 from shoal.scenario.load import Source
 
@@ -27,11 +27,12 @@ class ParallelEnv(PETTINGZOO_PARALLEL_ENV):  # type: ignore[misc]
     Parameters
     ----------
     scenario : what shoal.load takes
-    observe, act, reward : see Observe, Act and Episodes
+    observe, act, reward : see Observe, Act and Episodes; default: Observe(), Act() and {"time_on_target": 1.0}
 
     Attributes
     ----------
     episodes : the swarm; its `terms`, (1, N, R), are what rewards are made of
+    state_space : of `state`, (5 N + 3 T,) numbers of 32 bits
     """
 
     metadata = {"name": "shoal", "render_modes": [], "is_parallelizable": True}  # noqa: RUF012 (PettingZoo's word)
@@ -52,6 +53,7 @@ class ParallelEnv(PETTINGZOO_PARALLEL_ENV):  # type: ignore[misc]
         self.agents: list[str] = []
         self._number = {agent: i for i, agent in enumerate(self.possible_agents)}
         self.observation_spaces = {agent: observation_box(self.episodes, i) for agent, i in self._number.items()}
+        self.state_space = state_box(self.episodes)
         self.action_spaces = {agent: action_box(self.episodes, act, i) for agent, i in self._number.items()}
 
     def observation_space(self, agent: str) -> Any:
@@ -105,6 +107,10 @@ class ParallelEnv(PETTINGZOO_PARALLEL_ENV):  # type: ignore[misc]
         infos: dict[str, Any] = {agent: {} for agent in self.agents}
         self.agents = [agent for agent in self.agents if not (over or terminations[agent])]
         return *given, infos
+
+    def state(self) -> Any:
+        """What is true, (5 N + 3 T,), see Episodes.state: for a centralized critic; no policy of a buoy knows it."""
+        return self.episodes.state()
 
     def render(self) -> None:
         """Nothing: `shoal watch` shows runs."""

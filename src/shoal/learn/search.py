@@ -45,7 +45,12 @@ class Runs:
         """Time on target of each candidate in each run, (C, R): the same chance for all. 0 of those that break."""
         scenarios = [self._scenario(each, seed, steps) for each in candidates]
         tasks = [self._pool.submit(self._score, each, run) for each in scenarios for run in runs]
-        return np.array([task.result() for task in tasks]).reshape(len(scenarios), len(runs))
+        try:
+            return np.array([task.result() for task in tasks]).reshape(len(scenarios), len(runs))
+        except BaseException:  # an interrupt, after which others may be asked for
+            for task in tasks:
+                task.cancel()
+            raise
 
     def close(self) -> None:
         """End; runs that go on end soon."""

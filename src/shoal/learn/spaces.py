@@ -26,6 +26,12 @@ def action_box(episodes: Episodes, act: Act, agent: int | None = None) -> Any:
     return _box(-high, high) if agent is None else _box(-high[agent], high[agent])
 
 
+def state_box(episodes: Episodes) -> Any:
+    """What is true of a swarm, (5 N + 3 T,): it has no bounds."""
+    high = np.full(episodes.state().shape, np.inf, np.float32)
+    return _box(-high, high)
+
+
 def batched(space: Any, count: int) -> Any:
     """The space of `count` environments."""
     return needed("gymnasium", "an environment").vector.utils.batch_space(space, count)

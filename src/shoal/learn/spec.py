@@ -27,10 +27,11 @@ class Observe:
 
     Parameters
     ----------
-    own : x, y, vx, vy, on_target, max_speed, drift_x, drift_y, aground
-    report : heard (1: there is one), dx, dy (as seen from oneself), vx, vy, on_target
-    reports : of how many; those not heard are zeros; default: as many as the scenario lets any agent hear
-    memory : fields of the strategy's memory, in their own units
+    own : some of x, y, vx, vy, on_target, max_speed, drift_x, drift_y, aground; default: the first six
+    report : some of heard (1: there is one), dx, dy (as seen from oneself), vx, vy, on_target; default: all six
+    reports : of how many; those not heard are zeros; default: as many as the scenario lets any agent hear, so that
+        with `neighbors=8` an agent knows 6 + 8 * 6 = 54 numbers
+    memory : fields of the strategy's memory, in their own units; default: none
     """
 
     own: tuple[str, ...] = ("x", "y", "vx", "vy", "on_target", "max_speed")
@@ -45,9 +46,9 @@ class Act:
 
     Parameters
     ----------
-    kind : velocity: the two parts of the wanted velocity, as shares of its own top speed; repulsion: a_R and the
-        attraction to the nearest neighbor on target, in the paper's rule (Eqs. 2 and 4); memory: fields of the memory
-        of the scenario's own strategy, which it finds there when it decides
+    kind : velocity, the default: the two parts of the wanted velocity, as shares of its own top speed; repulsion: a_R
+        and the attraction to the nearest neighbor on target, in the paper's rule (Eqs. 2 and 4); memory: fields of the
+        memory of the scenario's own strategy, which it finds there when it decides
     bounds : what -1 and 1 mean, by field: of kind repulsion `repulsion` [m] and `attraction`, else the paper's a_R and
         0 to 1; of kind memory all that are written
     scaled : False: velocities are in m/s

@@ -10,24 +10,24 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from shoal.core.files import check_file, write_atomic
 from shoal.learn.errors import LearnError
-from shoal.learn.search import Generation, Runs, search
+from shoal.learn.search import Generation, Runs, Weights, search
 from shoal.learn.weights import Weight, rewritten, source_text, weights_of
 from shoal.metrics.summary import bounds_of
 from shoal.record.statistics import Estimate, estimate
+from shoal.run.compiling import mark_compiled
 from shoal.run.simulation import Simulation
 from shoal.scenario.load import Source, load
 from shoal.scenario.schema import Scenario
-from shoal.strategies import CATALOGUE
+from shoal.strategies import CATALOGUE, TEMPLATES
 
-TEMPLATES = ("linear",)
 JUDGED = 10  # fresh runs, four times as long, that say what was learned
-_CHOSEN = 8  # runs by which the last centers, and the start, are compared
+COMPARED = 8  # runs by which the last centers, and the start, are compared
 _LATEST = 3  # centers that are
 _LONGER = 4
 
@@ -72,6 +72,32 @@ class Terms:
     vary: tuple[str, ...] = ()
 
 
+class Kept(NamedTuple):
+    """The best of the start and the last centers, by the search's own runs: they flatter what they choose.
+
+    weights : (W,); score, start : time on target of it and of the start; is_better : than the start
+    """
+
+    weights: Weights
+    score: float
+    start: float
+    is_better: bool
+
+
+class Stopped(KeyboardInterrupt):
+    """An interrupt of a search whose file holds something.
+
+    Attributes
+    ----------
+    interrupt : it; generations : that were done
+    kept : what the file holds, None if it holds the last center, which nothing was compared with
+    """
+
+    def __init__(self, interrupt: KeyboardInterrupt, generations: int, kept: Kept | None) -> None:
+        super().__init__(*interrupt.args)
+        self.interrupt, self.generations, self.kept = interrupt, generations, kept
+
+
 def train(
     strategy: str,
     scenario: Source,
@@ -79,6 +105,7 @@ def train(
     *,
     terms: Terms | None = None,
     report: Callable[[Generation, float], None] = lambda generation, share: None,
+    compiling: Callable[[Scenario], None] = lambda scenario: None,
 ) -> Learned:
     """Learn the weights of a strategy; write it to `out` after every generation, and in the end the best.
 
@@ -91,9 +118,11 @@ def train(
     out : Python file to write; its name is that of the strategy
     terms : how to search
     report : is told of every generation, and which share of the budget is used
+    compiling : is told of the scenario before the engine is compiled for its strategy
 
     Raises
     ------
+    Stopped : an interrupt, after a generation at least; the file holds the best, or another interrupt the last
     LearnError : there is nothing to learn, or no name for it; RecordError : the file cannot be written
     ScenarioError, StrategyError : it cannot run; MissingExtraError : cmaes is not installed
     """
@@ -104,31 +133,56 @@ def train(
         owner, weights, text = chosen.strategy.owner, weights_of(chosen, terms.vary), source_text(chosen.strategy)
         first = np.array([weight.start for weight in weights])
         rewritten(text, owner, name, weights, first)  # before the work whose result it will hold
+        compiling(chosen)
         Simulation(chosen)  # compiles
+        mark_compiled(chosen)
+        centers: list[Weights] = []
+        best: Kept | None = None
+        stopped: KeyboardInterrupt | None = None
         begun = time.process_time()
 
         def used() -> float:
             return (time.process_time() - begun) / terms.budget
 
+        def write(values: Weights) -> None:
+            write_atomic(out, rewritten(text, owner, name, weights, values).encode())
+
         def keep(generation: Generation) -> None:
-            write_atomic(out, rewritten(text, owner, name, weights, generation.center).encode())
+            write(generation.center)
+            centers.append(generation.center)
             report(generation, used())
 
         runs = Runs(chosen, weights, terms.jobs or os.cpu_count() or 1)
         try:
             seed, steps = chosen.seed, terms.steps
-            centers = search(runs, seed=seed, steps=steps, each=terms.each, is_over=lambda: used() > 0.9, report=keep)
-            candidates = [first, *centers[-_LATEST:]]
-            unused = len(centers) * terms.each
-            scores = runs.scores(candidates, seed, range(unused, unused + _CHOSEN), steps).mean(axis=1)
-            best = candidates[int(scores.argmax())]
-            write_atomic(out, rewritten(text, owner, name, weights, best).encode())
-            fresh = runs.scores([first, best], seed + 1, range(JUDGED), _LONGER * steps)
+            try:
+                search(runs, seed=seed, steps=steps, each=terms.each, is_over=lambda: used() > 0.9, report=keep)
+            except KeyboardInterrupt as interrupt:
+                if not centers:
+                    raise
+                stopped = interrupt
+            unused = (len(centers) + 1) * terms.each if stopped else len(centers) * terms.each
+            best = _best_of(runs, [first, *centers[-_LATEST:]], seed, unused, steps)
+            write(best.weights)
+            if stopped:
+                raise stopped
+            fresh = runs.scores([first, best.weights], seed + 1, range(JUDGED), _LONGER * steps)
+        except KeyboardInterrupt as interrupt:
+            if not centers:
+                raise
+            raise Stopped(interrupt, len(centers), best) from interrupt
         finally:
             runs.close()
     bounds = bounds_of("time_on_target")
     before, after = (estimate(each, bounds=bounds) for each in fresh)
-    return Learned(out, name, before, after, _named(weights, best), len(centers), best is not first)
+    return Learned(out, name, before, after, _named(weights, best.weights), len(centers), best.is_better)
+
+
+def _best_of(runs: Runs, candidates: Sequence[Weights], seed: int, unused: int, steps: int) -> Kept:
+    """The best of some weights, of which the first are the start's, in runs from `unused` on."""
+    scores = runs.scores(candidates, seed, range(unused, unused + COMPARED), steps).mean(axis=1)
+    best = int(scores.argmax())
+    return Kept(candidates[best], float(scores[best]), float(scores[0]), best > 0)
 
 
 @contextmanager

@@ -27,7 +27,7 @@ class VectorEnv(GYMNASIUM_VECTOR_ENV):  # type: ignore[misc]
     Parameters
     ----------
     scenario : what shoal.load takes; num_envs : E
-    observe, act, reward : see Observe, Act and Episodes
+    observe, act, reward : see Observe, Act and Episodes; default: Observe(), Act() and {"time_on_target": 1.0}
     autoreset : when a swarm whose episode is over begins the next one: at the next step, whose action is ignored; at
         once, with the last observation in infos["final_obs"]; or never, but by reset(options={"reset_mask": ...})
     copy : whether observations and rewards are copies; False: the same arrays at every step, nothing is copied

@@ -28,7 +28,7 @@ from shoal.scenario.schema import Area, Fleet, Motion, Scenario
 from shoal.scenario.sea import FILES, FLOWS, TAGS, Sea
 from shoal.scenario.strategy_choice import StrategyChoice, StrategyParamsError, following, params_model
 from shoal.scenario.targets import TARGETS
-from shoal.strategies.plugins import find_strategy, load_strategies
+from shoal.strategies.plugins import find_strategy, load_strategies, meant_by
 
 LARGEST = 10**6  # bytes of a scenario file
 _DEPTH = "a scenario is four levels deep at most"
@@ -301,7 +301,7 @@ def _explain(path: tuple[Any, ...], error: Any, table: Mapping[str, Any]) -> tup
     if error["type"] == "strategy_name":
         names = error["ctx"]["known"].split(", ")
         wrong = value.get("name") if isinstance(value, dict) else value
-        hint = did_you_mean(str(wrong), names)
+        hint = meant_by(str(wrong), names)
         return (
             f"no strategy is called {quoted(wrong)}",
             f'{hint}strategies: {", ".join(names)}; or file = "my_strategy.py"',

@@ -8,4 +8,5 @@ from shoal.strategies.contract import strategy as strategy
 
 import_marked("shoal.strategies", "strategy")
 
+TEMPLATES = ("linear",)  # of `shoal learn`, which writes a strategy; none is a strategy itself
 RECOMMENDED = "cordon"  # what to take where nothing is known: docs/reference/arena-wide.md says how it fares

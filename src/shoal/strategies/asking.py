@@ -228,78 +228,98 @@ def _decide(me, heard, memory, params, draw):
     return decide_by_name
 
 
-# Loops over sums, unrolled: their number is known when a strategy is compiled.
+# Loops over sums, unrolled: their number is known when a strategy is compiled. By halves: one within the other, fifty
+# would be deeper than Python lets the compiler go.
 
 
 @cache
-def _clearing(count: int) -> Any:
-    if count == 0:
-        return kernel(lambda sums, i: None)
-    before, last = _clearing(count - 1), count - 1
+def _clearing(count: int, first: int = 0) -> Any:
+    if count < 2:
+        return kernel(_clear_one(first) if count else lambda sums, i: None)
+    half = count // 2
+    before, after = _clearing(half, first), _clearing(count - half, first + half)
 
     def clear_all(sums, i):
         before(sums, i)
-        sums[last, i] = 0.0
+        after(sums, i)
 
     return kernel(clear_all)
 
 
+def _clear_one(number: int) -> Any:
+    def clear_one(sums, i):
+        sums[number, i] = 0.0
+
+    return clear_one
+
+
 @cache
-def _adding(count: int) -> Any:
-    if count == 0:
-        return kernel(lambda sums, i, values, linked: None)
-    before, last = _adding(count - 1), count - 1
+def _adding(count: int, first: int = 0) -> Any:
+    if count < 2:
+        return kernel(_add_one(first) if count else lambda sums, i, values, linked: None)
+    half = count // 2
+    before, after = _adding(half, first), _adding(count - half, first + half)
 
     def add_all(sums, i, values, linked):
         before(sums, i, values, linked)
-        sums[last, i] += values[last] if linked else 0.0
+        after(sums, i, values, linked)
 
     return kernel(add_all)
 
 
+def _add_one(number: int) -> Any:
+    def add_one(sums, i, values, linked):
+        sums[number, i] += values[number] if linked else 0.0
+
+    return add_one
+
+
 @cache
-def _taking(count: int) -> Any:
-    if count == 0:
-        return kernel(lambda sums: ())
-    before, last = _taking(count - 1), count - 1
-
-    def take_all(sums):
-        return (*before(sums), sums[last])
-
-    return kernel(take_all)
+def _taking(count: int, first: int = 0) -> Any:
+    if count < 2:
+        return kernel((lambda sums: (sums[first],)) if count else lambda sums: ())
+    half = count // 2
+    before, after = _taking(half, first), _taking(count - half, first + half)
+    return kernel(lambda sums: (*before(sums), *after(sums)))
 
 
 @cache
 def _zeros(count: int) -> Any:
-    if count == 0:
-        return kernel(lambda zero: ())
-    before = _zeros(count - 1)
-    return kernel(lambda zero: (*before(zero), zero))
+    if count < 2:
+        return kernel((lambda zero: (zero,)) if count else lambda zero: ())
+    before, after = _zeros(count // 2), _zeros(count - count // 2)
+    return kernel(lambda zero: (*before(zero), *after(zero)))
 
 
 @cache
-def _plus(count: int) -> Any:
-    if count == 0:
-        return kernel(lambda totals, values, linked: ())
-    before, last = _plus(count - 1), count - 1
+def _plus(count: int, first: int = 0) -> Any:
+    if count < 2:
+        return kernel(_plus_one(first) if count else lambda totals, values, linked: ())
+    half = count // 2
+    before, after = _plus(half, first), _plus(count - half, first + half)
+    return kernel(lambda totals, values, linked: (*before(totals, values, linked), *after(totals, values, linked)))
 
-    def add_all(totals, values, linked):
-        return (*before(totals, values, linked), totals[last] + either(linked, values[last], 0.0))
 
-    return kernel(add_all)
+def _plus_one(number: int) -> Any:
+    return lambda totals, values, linked: (totals[number] + either(linked, values[number], 0.0),)
 
 
 @cache
-def _putting(count: int) -> Any:
-    if count == 0:
-        return kernel(lambda sums, i, totals: None)
-    before, last = _putting(count - 1), count - 1
+def _putting(count: int, first: int = 0) -> Any:
+    if count < 2:
+        return kernel(_put_one(first) if count else lambda sums, i, totals: None)
+    half = count // 2
+    before, after = _putting(half, first), _putting(count - half, first + half)
 
     def put_all(sums, i, totals):
         before(sums, i, totals)
-        put(sums, (last, i), totals[last])
+        after(sums, i, totals)
 
     return kernel(put_all)
+
+
+def _put_one(number: int) -> Any:
+    return lambda sums, i, totals: put(sums, (number, i), totals[number])
 
 
 _COUNT_THEM = "return as many numbers as sums=(...) names, which are x and y if it names none"

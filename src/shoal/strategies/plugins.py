@@ -4,12 +4,13 @@ import hashlib
 import importlib.util
 import linecache
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from shoal.core.errors import StrategyError
-from shoal.strategies import CATALOGUE, Strategy
+from shoal.core.errors import StrategyError, did_you_mean
+from shoal.strategies import CATALOGUE, TEMPLATES, Strategy
 from shoal.strategies.installed import load_installed
 
 
@@ -44,6 +45,13 @@ def find_strategy(name: str, source: object = None) -> Strategy | None:
     """
     loaded = _LOADED.get(source, {}) if isinstance(source, str) else {}
     return loaded.get(name) or CATALOGUE.get(name) or load_installed(name)
+
+
+def meant_by(name: str, known: Iterable[str]) -> str:
+    """What whoever names a strategy that is not there may mean; empty, or ends in a space."""
+    if name in TEMPLATES:
+        return f"{name} is a template: `shoal learn {name}` makes learned.py of it, a strategy: --strategy learned.py; "
+    return did_you_mean(name, known)
 
 
 def known_strategy(name: str, source: object = None) -> Strategy | None:
