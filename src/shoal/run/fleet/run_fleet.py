@@ -9,12 +9,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from shoal.buoy.named import buoys_of
 from shoal.buoy.trust import NOBODY, Trust, key_in
 from shoal.core.errors import FleetError
 from shoal.record.files import RecordFolder
 from shoal.record.record import Record
 from shoal.run.compiling import BUOYS, mark_compiled
-from shoal.run.fleet.kills import Killing, kills_of
+from shoal.run.fleet.kills import Killing, company, kills_of
 from shoal.run.fleet.lockstep import Crowd, run_in_lockstep
 from shoal.run.fleet.log import Log, Onlooker
 from shoal.run.fleet.memory import InMemory
@@ -153,16 +154,17 @@ def _opened(scenario: Scenario, onlooker: Onlooker | None) -> Ocean:
     return ocean
 
 
-def check_terms(scenario: Scenario, terms: Terms) -> None:
-    """Refuse terms that cannot be, and what buoys cannot do, before anything starts.
+def check_terms(scenario: Scenario, terms: Terms) -> list[str]:
+    """Refuse terms that cannot be, and what buoys cannot do, before anything starts; say who is killed with others.
 
     Raises
     ------
     ScenarioError, StrategyError, FleetError : as run_fleet
     """
-    kills_of(terms.kill, scenario.agents)
-    _shares(scenario.agents, terms)
+    kills = kills_of(terms.kill, scenario.agents)
+    shares = _shares(scenario.agents, terms)
     check_buoys_can(scenario, crew_of(scenario))
+    return [] if terms.mesh == "memory" else company(kills, shares)
 
 
 def _shares(agents: int, terms: Terms) -> list[list[int]]:
@@ -193,7 +195,7 @@ def _shares(agents: int, terms: Terms) -> list[list[int]]:
 def _lost(lost: list[tuple[int, int]]) -> list[str]:
     steps = sorted({step for step, _ in lost})
     return [
-        f"lost at step {step:,}: buoy {', '.join(str(id) for then, id in sorted(lost) if then == step)}"
+        f"lost at step {step:,}: {buoys_of(id for then, id in lost if then == step)}"
         for step in steps
     ]
 
