@@ -256,7 +256,7 @@ def test_waiting_is_said_and_a_failed_start_leaves_no_log(capsys, tmp_path, monk
 
 def test_two_on_a_desk_move_without_a_vehicle(tmp_path):
     meshes = [f"127.0.0.1:{port}" for port in free_ports(2, socket.SOCK_STREAM)]
-    desk = Buoys(tmp_path, afloat(strategy="random-walk"), [], meshes, dict.fromkeys(range(2), ["--wait", "2"]))
+    desk = Buoys(tmp_path, afloat(strategy="random-walk"), [], meshes, {id: ["--wait", "2"] for id in range(2)})
     try:
         for id in range(2):
             desk.start(id)

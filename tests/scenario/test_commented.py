@@ -35,4 +35,4 @@ def test_what_does_not_change_keeps_the_comment_behind_it_and_what_does_loses_it
 def test_nothing_is_better_than_another_scenario():
     text = preset_text("oceans2020")
     assert rewritten(text, load("oceans2020")) == text
-    assert rewritten(text, load("oceans2020", **{"losses": [{"step": 5, "count": 2}]})) is None
+    assert rewritten(text, load("oceans2020", losses=[{"step": 5, "count": 2}])) is None

@@ -88,14 +88,10 @@ class SimulatedBody:
     def _steer(self) -> None:
         """Take the velocity that is wanted, cut at the fence."""
         still = self._wanted == (0.0, 0.0)
-        self._vx, self._vy = (
-            (0.0, 0.0) if still else kept_inside(self._fence, self._x, self._y, *self._wanted, HORIZON)
-        )
+        self._vx, self._vy = (0.0, 0.0) if still else kept_inside(self._fence, self._x, self._y, *self._wanted, HORIZON)
 
 
-def open_simulated_body(
-    text: str, scenario: Scenario, id: int, *, detector: Detector | None = None
-) -> SimulatedBody:
+def open_simulated_body(text: str, scenario: Scenario, id: int, *, detector: Detector | None = None) -> SimulatedBody:
     """Return the body that begins at a place.
 
     Parameters

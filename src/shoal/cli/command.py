@@ -71,7 +71,9 @@ def command(
         mesh.close()
     console = results_console()
     for step in sorted(set(answers.obeyed.values())):
-        console.print(f"obeyed from step {step:,} on: {buoys_of(id for id, at in answers.obeyed.items() if at == step)}")
+        console.print(
+            f"obeyed from step {step:,} on: {buoys_of(id for id, at in answers.obeyed.items() if at == step)}"
+        )
     for why in dict.fromkeys(answers.refused.values()):
         console.print(f"refused by {buoys_of(id for id, said in answers.refused.items() if said == why)}: {why}")
     if answers.silent:

@@ -20,8 +20,8 @@ def scenario(preset: str, /, *, scale_to: str | None = None) -> None:
     scale_to
         Make the longer side this long, such as "3 km", and multiply all lengths and times alike; speeds stay.
     """
-    from shoal.scenario.edit import parse_value
     from shoal.scenario.commented import rewritten
+    from shoal.scenario.edit import parse_value
     from shoal.scenario.load import load, preset_text, to_toml
 
     text, chosen = preset_text(preset), load(preset)

@@ -194,10 +194,7 @@ def _shares(agents: int, terms: Terms) -> list[list[int]]:
 
 def _lost(lost: list[tuple[int, int]]) -> list[str]:
     steps = sorted({step for step, _ in lost})
-    return [
-        f"lost at step {step:,}: {buoys_of(id for then, id in lost if then == step)}"
-        for step in steps
-    ]
+    return [f"lost at step {step:,}: {buoys_of(id for then, id in lost if then == step)}" for step in steps]
 
 
 def _measured(facts: list[dict[str, Any]], by_clock: bool) -> list[str]:
