@@ -20,9 +20,9 @@ def scenario(preset: str, /, *, scale_to: str | None = None) -> None:
     scale_to
         Make the longer side this long, such as "3 km", and multiply all lengths and times alike; speeds stay.
     """
-    from shoal.scenario.commented import rewritten
     from shoal.scenario.edit import parse_value
     from shoal.scenario.load import load, preset_text, to_toml
+    from shoal.scenario.text import rewritten
 
     text, chosen = preset_text(preset), load(preset)
     if scale_to is not None:

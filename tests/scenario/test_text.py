@@ -5,8 +5,8 @@ import tomllib
 import pytest
 
 import shoal
-from shoal.scenario.commented import rewritten
 from shoal.scenario.load import load, preset_text
+from shoal.scenario.text import rewritten
 
 HERE = [name for name in shoal.presets() if name not in ("bay", "offshore")]  # which are at a place on Earth
 
