@@ -227,13 +227,14 @@ def _measured(facts: list[dict[str, Any]], by_clock: bool) -> list[str]:
         delays, ages = (_summed(facts, name) for name in ("delays", "ages"))
         unheard = ages.pop(-1, 0)
         heard = sum(ages.values())
+        skipped = sum(each["skipped"] for each in facts)
         mean = sum(age * count for age, count in ages.items()) / max(1, heard)
         notes += [
             f"reports arrived {percentile(delays, 0.5)} ms after their step began (median; 99 %: "
             f"{percentile(delays, 0.99)} ms)",
             f"decisions were on reports {mean:.4f} steps old on average; {unheard / max(1, unheard + heard):.3%} of "
             "the reports of those who were there did not come in time",
-            f"{sum(each['skipped'] for each in facts):,} steps passed without a decision of a process",
+            f"{skipped:,} step{'s' * (skipped != 1)} passed without a decision of a process",
         ]
     return notes
 
