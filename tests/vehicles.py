@@ -51,7 +51,10 @@ class Sea:
 
 
 class Buoys:
-    """Processes of `shoal buoy`, one per vehicle; what they say is in the file said-ID of a folder."""
+    """Processes of `shoal buoy`, one per vehicle; what they say is in the file said-ID of a folder.
+
+    Without `bodies` they are points that no vehicle carries.
+    """
 
     def __init__(self, folder, scenario, bodies, meshes, options=None, before=None):
         self.folder, self.bodies, self.meshes = folder, bodies, meshes
@@ -64,7 +67,8 @@ class Buoys:
         """Start a buoy on the vehicle of a place; its number is that of the place, too, if not given."""
         command = [*self.before.get(place, []), sys.executable, "-m", "shoal", "buoy", str(self.file)]
         command += ["--id", str(place if id is None else id), "--connect", ",".join(self.meshes)]
-        command += ["--listen", self.meshes[place], "--body", f"mavlink:udp:{self.bodies[place]}", "--arm"]
+        body = [f"mavlink:udp:{self.bodies[place]}", "--arm"] if self.bodies else ["simulated"]
+        command += ["--listen", self.meshes[place], "--body", *body]
         command += ["--out", str(self.folder / "log"), "--plain"]
         with (self.folder / f"said-{place}").open("ab") as said:
             about = {**os.environ, "OPENBLAS_NUM_THREADS": "1", **environment}

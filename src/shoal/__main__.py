@@ -6,6 +6,7 @@ import signal
 import sys
 from typing import Any
 
+NEEDED = ("cyclopts", "rich")  # a library without a command line does without them
 COLLECT_AFTER = 100_000  # new objects: Python looks for garbage after 700, a sixth of a start in which there is none
 
 
@@ -16,7 +17,14 @@ def main() -> None:
     heeded = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # not under nohup
     if heeded:
         signal.signal(signal.SIGINT, _leave)  # while what is imported below takes half a second
-    from shoal.cli.main import run_command
+    try:
+        from shoal.cli.main import run_command
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.split(".")[0] not in NEEDED:
+            raise
+        sys.stderr.write(f"shoal: {error.name}: is not installed, and the command line needs it\n")
+        sys.stderr.write(f"  fix: pip install {' '.join(NEEDED)}\n")
+        sys.exit(2)
     from shoal.cli.signals import heed_signals
 
     heed_signals()

@@ -27,7 +27,7 @@ class TestNames:
         [
             ("", "'' is no kind of body"),
             ("sea", "'sea' is no kind of body"),
-            ("mavlnk:udp:127.0.0.1:1", "did you mean 'mavlink'? there are: mavlink"),
+            ("mavlnk:udp:127.0.0.1:1", "did you mean 'mavlink'? there are: mavlink, simulated"),
             ("mavlink", "'' is no address of an autopilot"),
             ("mavlink:udp:127.0.0.1", "does not say host and port"),
             ("mavlink:udp:127.0.0.1:port", "does not say host and port"),
@@ -47,7 +47,7 @@ class TestNames:
 
     def test_others_may_be_named_and_are_listed(self):
         assert open_body("sea:3", "oceans2020", 0, others={"sea": lambda rest: rest}) == "3"
-        with pytest.raises(BodyError, match="there are: mavlink, sea"):
+        with pytest.raises(BodyError, match="there are: mavlink, simulated, sea"):
             open_body("see", "oceans2020", 0, others={"sea": str})
 
     def test_a_scenario_that_is_nowhere_on_earth_is_refused(self):

@@ -265,3 +265,14 @@ def test_without_a_folder_nothing_is_kept():
     log.lack(2, "nothing")
     log.close()
     assert log.file is None
+
+
+def test_a_log_without_a_row_leaves_nothing_behind(tmp_path):
+    reading = Reading(0.0, 0.0, 0.0, 0.0, False)
+    Logbook(tmp_path / "new", 0, Frame((5.3, 60.4))).close()
+    assert not (tmp_path / "new").exists()
+    other, log = (Logbook(tmp_path / "log", id, Frame((5.3, 60.4))) for id in (1, 2))
+    log.keep(0, reading, (0.0, 0.0), 0)
+    log.close()
+    other.close()
+    assert list((tmp_path / "log").iterdir()) == [log.file]

@@ -3,6 +3,7 @@
 import math
 import os
 import random
+import re
 import signal
 import socket
 from datetime import datetime
@@ -20,6 +21,7 @@ pytest.importorskip("zenoh", reason="the extra fleet is not installed")
 from shoal.buoy.sail import Gear, mesh_of, others_of
 from shoal.buoy.trust import key_in
 from shoal.buoy.zenoh_mesh import ZenohMesh
+from shoal.scenario.load import to_toml
 from vehicles import ORIGIN, Buoys, Sea, free_ports, wait_until
 
 PLACES = [(-30.0, 0.0), (0.0, 30.0), (30.0, 0.0)]
@@ -178,8 +180,8 @@ def test_vehicles_obey_who_has_key_and_certificate_and_nobody_else(tmp_path, cap
 
 
 def _numbers(line):
-    """Of `obeyed from step 7 on: buoy 0-1`, 0 and 1."""
-    for part in line.partition(": buoy ")[2].split(", "):
+    """Of `obeyed from step 7 on: buoys 0-1`, 0 and 1."""
+    for part in re.split(r": buoys? ", line)[-1].split(", "):
         first, _, last = part.partition("-")
         yield from range(int(first), int(last or first) + 1)
 
@@ -232,10 +234,33 @@ def test_what_cannot_be_is_one_sentence(capsys, options, words):
     ],
 )
 def test_a_body_or_sensor_that_cannot_be_had_is_one_too(capsys, tmp_path, monkeypatch, options, words):
-    from shoal.scenario.load import to_toml
-
     monkeypatch.setattr("shoal.buoy.aboard.Aboard.warm", lambda self: None)
     (tmp_path / "mine.toml").write_text(to_toml(afloat()), encoding="utf-8")
     code, out, err = shoal(capsys, "buoy", tmp_path / "mine.toml", "--id", 1, *options)
     assert (code, out, err.count("\n")) == (2, "", 2)
     assert words in err
+
+
+def test_waiting_is_said_and_a_failed_start_leaves_no_log(capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr("shoal.buoy.aboard.Aboard.warm", lambda self: None)
+    monkeypatch.setattr("shoal.buoy.mavlink_body.PATIENCE", 0.2)
+    (tmp_path / "mine.toml").write_text(to_toml(afloat()), encoding="utf-8")
+    (port,) = free_ports(1, socket.SOCK_DGRAM)
+    body = f"mavlink:udp:127.0.0.1:{port}"
+    code, _, err = shoal(capsys, "buoy", tmp_path / "mine.toml", "--id", 1, "--body", body, "--out", tmp_path / "log")
+    said = f"shoal: buoy 1: waits for a vehicle at udp:127.0.0.1:{port}, for its position and for GUIDED, 0.2 s at most"
+    assert (code, err.splitlines()[0]) == (2, f"{said} for each")
+    assert "no vehicle is heard" in err
+    assert not (tmp_path / "log").exists()
+
+
+def test_two_on_a_desk_move_without_a_vehicle(tmp_path):
+    meshes = [f"127.0.0.1:{port}" for port in free_ports(2, socket.SOCK_STREAM)]
+    desk = Buoys(tmp_path, afloat(strategy="random-walk"), [], meshes, {id: ["--wait", "2"] for id in range(2)})
+    try:
+        for id in range(2):
+            desk.start(id)
+        wait_until(lambda: all(len(desk.rows(id)) > 10 and float(desk.rows(id)[-1]["vx"]) for id in range(2)))
+        assert all(math.hypot(float(row["vx"]), float(row["vy"])) < 2.0 + 1e-3 for row in desk.rows(0))
+    finally:
+        desk.close()

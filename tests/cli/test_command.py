@@ -52,9 +52,9 @@ def test_a_place_where_nobody_is(capsys, key, place):
 @pytest.mark.parametrize(
     ("answers", "code", "lines"),
     [
-        (Answers({0: 7, 1: 7, 2: 8}, {}, []), 0, ["obeyed from step 7 on: buoy 0-1", "obeyed from step 8 on: buoy 2"]),
-        (Answers({}, {4: "it will not", 2: "it will not"}, []), 3, ["refused by buoy 2, 4: it will not"]),
-        (Answers({0: 7}, {}, [1, 2]), 3, ["obeyed from step 7 on: buoy 0", "did not answer within 10 s: buoy 1-2"]),
+        (Answers({0: 7, 1: 7, 2: 8}, {}, []), 0, ["obeyed from step 7 on: buoys 0-1", "obeyed from step 8 on: buoy 2"]),
+        (Answers({}, {4: "it will not", 2: "it will not"}, []), 3, ["refused by buoys 2, 4: it will not"]),
+        (Answers({0: 7}, {}, [1, 2]), 3, ["obeyed from step 7 on: buoy 0", "did not answer within 10 s: buoys 1-2"]),
     ],
 )  # fmt: skip
 def test_who_obeys_is_said_and_the_exit_code_says_whether_all_do(capsys, key, monkeypatch, answers, code, lines):

@@ -1,11 +1,14 @@
 """shoal fleet, as a user gives it."""
 
+import importlib.util
 import json
 import sys
 
 import pytest
 
 from commands import shoal
+from scenarios import scenario
+from shoal.run.fleet.run_fleet import Terms, check_terms
 
 SMALL = ("oceans2020", "--steps", 20, "--mesh", "memory")
 
@@ -62,3 +65,20 @@ def test_a_loss_that_cannot_be(capsys, loss):
     assert code == 2
     assert "losses.0" in err or "loss" in err
     assert "Traceback" not in err
+
+
+def test_without_the_viewer_it_says_so_before_anything_else(capsys, monkeypatch):
+    real = importlib.util.find_spec
+    monkeypatch.setattr("shoal.viewer.server.find_spec", lambda name: None if name == "starlette" else real(name))
+    code, out, err = shoal(capsys, "fleet", *SMALL, "--watch", "--no-browser")
+    assert (code, out, err.count("\n")) == (2, "", 2)
+    assert err.startswith("shoal: starlette: is not installed, and watching a run in a browser needs it")
+
+
+def test_a_kill_that_takes_others_with_it_says_whom():
+    chosen = scenario("oceans2020")
+    assert check_terms(chosen, Terms(processes=2, kill=("3@100",))) == [
+        "--kill 3@100 ends buoys 0-24, which are in one process; --processes 50 gives each its own"
+    ]
+    assert check_terms(chosen, Terms(processes=50, kill=("3@100",))) == []
+    assert check_terms(chosen, Terms(mesh="memory", kill=("3@100",))) == []

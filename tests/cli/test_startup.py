@@ -71,3 +71,28 @@ assert not {"numba.np.npyimpl", "scipy", "yaml"} & set(sys.modules)
 def test_what_is_compiled_already_is_loaded_without_what_compiling_needs():
     simulate(scenario(changes={"steps": 1}))
     subprocess.run([sys.executable, "-c", WARM], check=True, stdout=subprocess.DEVNULL)
+
+
+LACKING = """
+import sys
+
+class Lacking:
+    def find_spec(self, name, path=None, target=None):
+        if name == {lacking!r}:
+            raise ModuleNotFoundError("No module named " + repr(name), name=name)
+
+sys.meta_path.insert(0, Lacking())
+sys.argv = ["shoal", "buoy", "oceans2020", "--id", "7", "--body", "simulated"]
+from shoal.__main__ import main
+main()
+"""
+
+
+@pytest.mark.parametrize(
+    ("lacking", "fix"), [("cyclopts", "pip install cyclopts"), ("numba", "`shoal buoy` does without it by --plain")]
+)
+def test_a_library_that_is_left_out_on_small_computers_is_one_error(lacking, fix):
+    done = subprocess.run([sys.executable, "-c", LACKING.format(lacking=lacking)], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 2)
+    assert done.stderr.startswith(f"shoal: {lacking}: is not installed, and ")
+    assert fix in done.stderr

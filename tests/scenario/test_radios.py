@@ -56,6 +56,7 @@ class TestDuty:
     def test_a_report_that_takes_longer_than_the_interval_cannot_be_sent(self):
         (sentence,) = self.said(**{"network.radio": "lora-sf12"})
         assert "cannot be sent" in sentence
+        assert "takes lora-sf12 2,300 ms" in sentence
 
     def test_no_law_no_sentence(self):
         assert self.said(**{"network.radio": "wifi-mesh"}) == []

@@ -97,6 +97,8 @@ class TestScaled:
         (tmp_path / "sea.toml").write_text(out)
         assert code == 0
         assert shoal.load(tmp_path / "sea.toml") == scenario().scaled(150)
+        assert out.startswith("# Preset oceans2020 with all lengths and times 150 times as large")
+        assert "# fleets    name, count" in out
         assert command(capsys, "scenario", "oceans2020", "--scale-to", "wide")[0] == 2
 
 

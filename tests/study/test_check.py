@@ -21,7 +21,7 @@ BAY = {
 }
 AT_A_WALL = {"strategy": "pursuit", "targets": [{"kind": "still", "radius": 5.0, "x": 1500.0, "y": 0.0}], "steps": 4000}
 
-AT_SEA = {"bay": "knn-pso follows the scenario", "offshore": "% of the area"}
+AT_SEA = {"bay": ["knn-pso follows the scenario", "44 % would collide"], "offshore": ["% of the area"]}
 
 
 def notes(changes, **options):
@@ -46,8 +46,7 @@ class TestPresets:
         for library in ("pyproj", "scipy", "netCDF4"):
             pytest.importorskip(library, reason="a sea needs pip install '.[maritime]'")
         told = shoal.check(name)
-        assert len(told) == 1
-        assert AT_SEA[name] in told[0]
+        assert all(words in said for words, said in zip(AT_SEA[name], told, strict=True))
 
 
 class TestUnsuited:
@@ -78,6 +77,22 @@ class TestUnsuited:
     )
     def test_what_is_odd_is_said(self, changes, words):
         assert sum(words in note for note in notes(changes)) == 1
+
+    @pytest.mark.parametrize(
+        ("network", "words"),
+        [
+            ({"radio": "lora-sf7", "interval": "10 s"}, ["take 0.293 of its time", "44 % would collide"]),
+            ({"radio": "lora-sf9", "interval": "34 s"}, ["44 % would collide (pure ALOHA"]),
+            ({"radio": "lora-sf7", "interval": "10 s", "loss": 0.5}, []),  # it counts on more
+            ({"radio": "lora-sf7", "interval": "2 min", "loss": 0.0}, []),  # less than a tenth
+            ({"radio": "wifi-mesh"}, []),  # it listens first
+            ({"radio": "vdes", "interval": "1 s"}, ["take 1.6 of its time", "more than there is"]),
+        ],
+    )
+    def test_a_channel_that_is_too_full_is_said(self, network, words):
+        told = [each for each in notes({"network": BAY["network"] | network}, trials=False) if "channel_load" in each]
+        assert len(told) == bool(words)
+        assert all(word in told[0] for word in words)
 
     def test_what_is_zero_is_meant(self):
         assert not any("delta" in note for note in notes({"strategy": {"name": "knn-pso", **POOL, "delta": 0.0}}))

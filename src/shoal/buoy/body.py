@@ -49,18 +49,21 @@ def open_body(
     arm: bool = False,
     key: bytes | None = None,
     others: Mapping[str, Opener] | None = None,
+    tell: Callable[[str], None] | None = None,
 ) -> Body:
-    """Return the body that a text names: "mavlink:udp:127.0.0.1:14550", or one of `others`.
+    """Return the body that a text names: "mavlink:udp:127.0.0.1:14550", "simulated", or one of `others`.
 
     Parameters
     ----------
-    text : a kind and what it needs, with a colon between; of mavlink: an address of connection.py, and #3 for system 3
+    text : a kind and what it needs, with a colon between; of mavlink: an address of connection.py, and #3 for system 3;
+        of simulated: where it begins, X,Y, or nothing
     scenario : where the arena lies, and how fast this agent may go
     id : number of the agent, 0 to N - 1
     detector : what says whether a target is there; default: none ever is
     arm : arm the vehicle, which lets its motors turn; else a person does
     key : 32 bytes that sign all messages; default: anybody who reaches the vehicle may steer it
     others : {kind: function of what follows the colon} of more bodies, such as the stand-in sea's
+    tell : called with a sentence when it waits for something
 
     Raises
     ------
@@ -72,10 +75,17 @@ def open_body(
     openers = dict(others or {})
     if kind in openers:
         return openers[kind](rest)
+    if kind == "simulated":
+        if arm or key is not None:
+            option = "--arm" if arm else "--body-key"
+            raise BodyError(option, "is for a vehicle, and the body is simulated", "leave it out")
+        from shoal.buoy.simulated_body import open_simulated_body
+
+        return open_simulated_body(rest, load(scenario), id, detector=detector)
     if kind != "mavlink":
-        known = ["mavlink", *openers]
+        known = ["mavlink", "simulated", *openers]
         fix = f"{did_you_mean(kind, known)}there are: {', '.join(known)}; write mavlink:udp:127.0.0.1:14550"
         raise BodyError("--body", f"{quoted(text)} is no kind of body", fix)
     from shoal.buoy.mavlink_body import open_mavlink_body
 
-    return open_mavlink_body(rest, load(scenario), id, detector=detector, arm=arm, key=key)
+    return open_mavlink_body(rest, load(scenario), id, detector=detector, arm=arm, key=key, tell=tell)

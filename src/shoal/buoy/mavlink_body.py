@@ -265,6 +265,7 @@ def open_mavlink_body(
     detector: Detector | None = None,
     arm: bool = False,
     key: bytes | None = None,
+    tell: Callable[[str], None] | None = None,
 ) -> MavlinkBody:
     """Return the body at an address, begun and beating; see open_body.
 
@@ -274,7 +275,7 @@ def open_mavlink_body(
     scenario : with area.origin
     id : number of the agent
     detector : default: no target is ever there
-    arm, key : see open_body
+    arm, key, tell : see open_body
 
     Raises
     ------
@@ -294,6 +295,8 @@ def open_mavlink_body(
         vehicle = Vehicle(address, connection, Mavlink(system or 1, whole=connection.whole, key=key), system)
         silence = 2.0 * scenario.time_step + 1.0
         body = MavlinkBody(vehicle, frame, fence, detector=detector or no_detector, silence=silence)
+        if tell:
+            tell(f"waits for a vehicle at {address}, for its position and for GUIDED, {PATIENCE:g} s at most for each")
         body.begin(arm=arm)
     except BaseException:
         connection.close() if body is None else body.close()

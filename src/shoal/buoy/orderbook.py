@@ -4,6 +4,7 @@ import hashlib
 from collections import Counter
 from typing import Any, Protocol
 
+from shoal.buoy.named import buoys_of
 from shoal.core.errors import MessageError
 from shoal.core.orders import Answer, Order, opened, passed_on
 from shoal.scenario.commands import Command
@@ -128,7 +129,7 @@ class Orderbook:
             self.obeyed.append(command)
         if obeyed or refused:
             self.counts["obeyed" if obeyed else "refused"] += 1
-        self.refused += [f"{order.what} was refused by buoy {_some(ids)}: {why}" for why, ids in refused.items()]
+        self.refused += [f"{order.what} was refused by {buoys_of(ids)}: {why}" for why, ids in refused.items()]
         return Answer(self._fleet, order.number, step, tuple(obeyed), refused)
 
 
@@ -136,7 +137,3 @@ def _forget(known: dict[Any, Any]) -> None:
     """Drop what is known for longest, if too much is."""
     while len(known) > _MOST:
         del known[next(iter(known))]
-
-
-def _some(ids: tuple[int, ...]) -> str:
-    return ", ".join(map(str, ids))

@@ -101,7 +101,15 @@ def sail(scenario: Source, id: int, gear: Gear, tell: Callable[[str], None]) -> 
         stack.callback(mesh.close)
         twins = Twins(mesh, id, time.monotonic, tell)
         twins.wait(time.sleep)
-        body = open_body(gear.body, scenario, id, detector=detector, arm=gear.arm, key=gear.key)
+        body = open_body(
+            gear.body,
+            scenario,
+            id,
+            detector=detector,
+            arm=gear.arm,
+            key=gear.key,
+            tell=lambda said: tell(f"buoy {id}: {said}"),
+        )
         stack.callback(body.close)
         if gear.listen.endswith(":0"):
             tell(f"buoy {id} listens at {mesh.place}")
@@ -133,13 +141,14 @@ def _summary(id: int, helm: Helm | None, clock: CommonClock, aboard: Aboard, log
     if helm is None:
         return f"buoy {id} ended before the first step; its vehicle was stopped"
     counts, heard = helm.counts, aboard.inbox.counts
+    useless = sum(heard.values()) - heard["new"] - heard["reordered"]
     said = [
-        f"decided in {counts['decided']:,} steps",
+        f"decided in {counts['decided']:,} step{'s' * (counts['decided'] != 1)}",
         f"skipped {counts['skipped']:,}",
         f"did not know its place in {counts['unready']:,}",
         f"was not obeyed in {counts['disobeyed']:,}",
         f"heard nobody in {counts['alone']:,}",
-        f"{heard['new']:,} reports were new, {sum(heard.values()) - heard['new'] - heard['reordered']:,} of no use",
+        f"{heard['new']:,} report{' was' if heard['new'] == 1 else 's were'} new, {useless:,} of no use",
         f"step 0 was moved by {1000 * clock.furthest:.1f} ms at most",
     ]
     if twins.came or aboard.inbox.foreign:

@@ -49,7 +49,8 @@ def buoy(
         Addresses of the other buoys, HOST:PORT,HOST:PORT,...: one list for all will do, which has its own, too;
         without --body that of the sea, as `shoal fleet` gives it to the buoys that it starts.
     body
-        The vehicle that it steers, such as mavlink:udp:127.0.0.1:14550.
+        The vehicle that it steers, such as mavlink:udp:127.0.0.1:14550; or simulated, or simulated:X,Y: a point that
+        goes as it is told, to try all this on a desk.
     listen
         HOST:PORT at which the other buoys reach it; default a free port that only this machine reaches.
     sensor

@@ -1,11 +1,11 @@
 """shoal command: an order to buoys at sea."""
 
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
+from shoal.buoy.named import buoys_of
 from shoal.cli.console import results_console
 from shoal.cli.numbers import MaybeNumber
 
@@ -71,21 +71,11 @@ def command(
         mesh.close()
     console = results_console()
     for step in sorted(set(answers.obeyed.values())):
-        console.print(f"obeyed from step {step:,} on: {_some(id for id, at in answers.obeyed.items() if at == step)}")
+        console.print(
+            f"obeyed from step {step:,} on: {buoys_of(id for id, at in answers.obeyed.items() if at == step)}"
+        )
     for why in dict.fromkeys(answers.refused.values()):
-        console.print(f"refused by {_some(id for id, said in answers.refused.items() if said == why)}: {why}")
+        console.print(f"refused by {buoys_of(id for id, said in answers.refused.items() if said == why)}: {why}")
     if answers.silent:
-        console.print(f"did not answer within {seconds:g} s: {_some(answers.silent)}")
+        console.print(f"did not answer within {seconds:g} s: {buoys_of(answers.silent)}")
     return NOT_ALL if answers.refused or answers.silent else 0
-
-
-def _some(numbers: Iterable[int]) -> str:
-    """Numbers of buoys, runs of them as 3-7."""
-    runs: list[list[int]] = []
-    for number in sorted(numbers):
-        if runs and runs[-1][-1] == number - 1:
-            runs[-1].append(number)
-        else:
-            runs.append([number])
-    named = ", ".join(str(run[0]) if len(run) == 1 else f"{run[0]}-{run[-1]}" for run in runs)
-    return f"buoy {named}"

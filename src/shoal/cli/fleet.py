@@ -112,6 +112,10 @@ def fleet(
     json_
         Print one JSON object and nothing else.
     """
+    if watch:
+        from shoal.viewer.server import require_libraries
+
+        require_libraries()
     load_compiler()
     from shoal.buoy.trust import Trust
     from shoal.run.compiling import BUOYS
@@ -131,7 +135,8 @@ def fleet(
     check_places(out, figure)
     chosen = scenario_from(edited_table(scenario, changes, assignments or [], target_track, track_id), where=scenario)
     terms = Terms(processes, lockstep, speed, tuple(kill or ()), mesh, max_age, plain, Trust(command_key, mesh_config))
-    check_terms(chosen, terms)
+    for each in check_terms(chosen, terms):
+        note(each)
     paced = None if terms.in_lockstep else terms.speed or 1.0
     where = listen or (NOWHERE if mesh == "memory" else "127.0.0.1:0")
     with showing(chosen, paced, page=watch, browser=browser, listen=where) as show:

@@ -71,6 +71,12 @@ def run_command(tokens: list[str]) -> int:
     except KeyboardInterrupt as error:
         tell("interrupted; nothing was left half-written")
         return exit_code(error)
+    except ModuleNotFoundError as error:
+        if error.name != "numba":
+            raise
+        fix = "pip install numba; `shoal buoy` does without it by --plain"
+        tell(str(ShoalError("numba", "is not installed, and compiles what Shoal runs", fix)))
+        return BAD_INPUT
     except BrokenPipeError:  # the reader of our output left, as `| head` does
         drop_stdout()
     except CannotPrintError as error:

@@ -22,11 +22,22 @@ def scenario(preset: str, /, *, scale_to: str | None = None) -> None:
     """
     from shoal.scenario.edit import parse_value
     from shoal.scenario.load import load, preset_text, to_toml
+    from shoal.scenario.text import rewritten
 
+    text, chosen = preset_text(preset), load(preset)
     if scale_to is not None:
-        write(to_toml(load(preset).scaled(to=parse_value(scale_to))))
-    else:
-        write(preset_text(preset) or to_toml(load(preset)))
+        size = max(chosen.area.width, chosen.area.height)
+        chosen = chosen.scaled(to=parse_value(scale_to))
+        text = text and rewritten(text, chosen)
+        times = max(chosen.area.width, chosen.area.height) / size
+        text = text and f"{_SCALED.format(preset=preset, times=times)}{text}"
+    write(text or to_toml(chosen))
+
+
+_SCALED = """\
+# Preset {preset} with all lengths and times {times:g} times as large; where a comment names a size, it is the preset's.
+
+"""
 
 
 def check(file: str, /, *, quick: Annotated[bool, Parameter(negative=())] = False) -> None:

@@ -52,7 +52,7 @@ def _duty(scenario: Scenario) -> list[str]:
     if name is None:
         return []
     radio, time, interval = RADIOS[name], airtime(scenario), scenario.report_interval
-    report = f"a report of {report_size(scenario) + ENVELOPE_BYTES} bytes takes {name} {1000 * time:.3g} ms"
+    report = f"a report of {report_size(scenario) + ENVELOPE_BYTES} bytes takes {name} {_three_digits(1000 * time)} ms"
     if time > interval:
         return [f"{report}, longer than the {interval:g} s from one to the next: it cannot be sent"]
     if time / interval > radio.duty:
@@ -62,6 +62,10 @@ def _duty(scenario: Scenario) -> list[str]:
             f"{100 * radio.duty:g} % are allowed ({radio.law}): an interval of {lawful:g} s keeps to it"
         ]
     return []
+
+
+def _three_digits(value: float) -> str:
+    return f"{float(f'{value:.3g}'):,.0f}" if value >= 1000 else f"{value:.3g}"
 
 
 def _drag(scenario: Scenario) -> list[str]:

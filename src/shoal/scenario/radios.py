@@ -20,11 +20,13 @@ class Radio(NamedTuple):
     time_on_air : bytes of a message -> how long it takes [s]
     duty : the largest share of the time that one may transmit by law, 1 where there is none
     law : what says so
+    listens : whether it waits for a free channel, or has slots; without, what is sent at the same time collides
     """
 
     time_on_air: Callable[[int], float]
     duty: float = 1.0
     law: str = ""
+    listens: bool = True
 
 
 _LARGEST = 255  # bytes of a LoRa frame
@@ -64,9 +66,9 @@ def vdes(size: int) -> float:
 
 _EUROPE = "ETSI EN 300 220-2, 868.0 to 868.6 MHz"
 RADIOS: dict[str, Radio] = {
-    "lora-sf7": Radio(lora(7), 0.01, _EUROPE),
-    "lora-sf9": Radio(lora(9), 0.01, _EUROPE),
-    "lora-sf12": Radio(lora(12), 0.01, _EUROPE),
+    "lora-sf7": Radio(lora(7), 0.01, _EUROPE, listens=False),
+    "lora-sf9": Radio(lora(9), 0.01, _EUROPE, listens=False),
+    "lora-sf12": Radio(lora(12), 0.01, _EUROPE, listens=False),
     "wifi-mesh": Radio(wifi),
     "vdes": Radio(vdes),
 }

@@ -51,7 +51,7 @@ class Area(Frozen):
         default=0.0, description="agents are kept this far inside the edge [m]; the published runs used 1.5 of 20"
     )
     origin: tuple[float, float] | None = Field(
-        default=None, description="longitude and latitude of (0, 0) [deg], for recorded tracks"
+        default=None, description="longitude and latitude of (0, 0) [deg], for vehicles, maps and recorded tracks"
     )
 
     @model_validator(mode="after")

@@ -5,11 +5,14 @@ from collections.abc import Iterator
 from typing import Any, get_type_hints
 
 from shoal.core.units import Follows, Unit
+from shoal.scenario.assumptions import airtime
+from shoal.scenario.radios import RADIOS
 from shoal.scenario.scales import Scales, scales_of
 from shoal.scenario.schema import Scenario
 from shoal.scenario.strategy_choice import StrategyChoice, following
 
 FEW = 0.1  # of the spacing: a reach below it sees less than a thirtieth of what each agent has to watch
+COLLIDING = 0.1  # of the reports: what collides less often than this is not said
 FAR_OFF = 10.0  # times the default: where a parameter that was said no longer suits the scenario
 
 
@@ -19,7 +22,7 @@ def unsuited(scenario: Scenario) -> list[str]:
     choices = [scenario.strategy, *(fleet.strategy for fleet in scenario.fleets if fleet.strategy)]
     used = {fleet.strategy or scenario.strategy for fleet in scenario.fleets}
     lengths = [note for choice in dict.fromkeys(choices) if choice in used for note in _lengths(choice, scales)]
-    return [*_steps(scenario, scales), *_distances(scenario, scales), *lengths]
+    return [*_steps(scenario, scales), *_distances(scenario, scales), *_channel(scenario), *lengths]
 
 
 def _steps(scenario: Scenario, scales: Scales) -> Iterator[str]:
@@ -51,6 +54,29 @@ def _distances(scenario: Scenario, scales: Scales) -> Iterator[str]:
             f"the radio reaches {rounded(radio)} m, less than the {spacing} m between agents that are spread evenly: "
             "most hear nobody"
         )
+
+
+def _channel(scenario: Scenario) -> Iterator[str]:
+    """A channel that all agents share, and that has no room for all they say.
+
+    Of messages sent at random times, a share of 1 - exp(-2 G) collides, G the share of the time that all take: pure
+    ALOHA (Abramson, AFIPS Conf. Proc. 37, 1970, 281-285).
+    """
+    name, interval = scenario.network.radio, scenario.report_interval
+    time = airtime(scenario)
+    if name is None or time > interval:  # which is told as what cannot be sent
+        return
+    load = scenario.agents * time / interval
+    taken = f"{scenario.agents} agents on one channel of {name} take {rounded(load)} of its time (channel_load)"
+    mend = "take a longer network.interval, or count on more channels"
+    collide = 1.0 - math.exp(-2.0 * load)
+    if not RADIOS[name].listens and collide > max(COLLIDING, scenario.network.loss):
+        yield (
+            f"{taken}: of reports sent at random times {100 * collide:.0f} % would collide (pure ALOHA, 1 - exp(-2 G), "
+            f"Abramson 1970), and no run loses any by that; say so by network.loss, {mend}"
+        )
+    elif RADIOS[name].listens and load > 1.0:
+        yield f"{taken}: more than there is, and no run loses any report by that; {mend}"
 
 
 def _lengths(choice: StrategyChoice, scales: Scales) -> Iterator[str]:

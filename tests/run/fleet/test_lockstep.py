@@ -80,7 +80,7 @@ class TestLosses:
         assert [(each.step, each.agents) for each in record.scenario.losses] == [(30, (3, 7)), (45, (49,))]
         alive = record.trajectories[0].alive
         assert (alive[29].sum(), alive[30].sum(), alive[45].sum()) == (50, 48, 47)
-        assert record.provenance["notes"] == ["lost at step 30: buoy 3, 7", "lost at step 45: buoy 49"]
+        assert record.provenance["notes"] == ["lost at step 30: buoys 3, 7", "lost at step 45: buoy 49"]
         assert differences(record) == []
 
     def test_beside_those_that_the_scenario_loses_by_lot(self):

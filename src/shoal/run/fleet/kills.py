@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from shoal.buoy.named import buoys_of
 from shoal.buoy.tether import Commands, Tick
 from shoal.core.errors import FleetError
 from shoal.core.text import quoted
@@ -26,6 +27,24 @@ def kills_of(texts: Iterable[str], agents: int) -> dict[int, list[int]]:
             raise FleetError("--kill", f"is {quoted(text)}", fix)
         found.setdefault(int(match[2]), []).append(int(match[1]))
     return found
+
+
+def company(kills: dict[int, list[int]], shares: Sequence[Sequence[int]]) -> list[str]:
+    """Say of each kill that takes other buoys with it which, in a sentence.
+
+    Parameters
+    ----------
+    kills : who is killed at each step
+    shares : which buoys are in one process each
+    """
+    agents = sum(map(len, shares))
+    return [
+        f"--kill {id}@{step} ends {buoys_of(share)}, which are in one process; --processes {agents} gives each its own"
+        for step, ids in kills.items()
+        for id in ids
+        for share in shares
+        if id in share and len(share) > 1
+    ]
 
 
 @dataclass

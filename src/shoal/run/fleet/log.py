@@ -11,6 +11,7 @@ from typing import IO, Any
 import numpy as np
 import numpy.typing as npt
 
+from shoal.buoy.named import buoys_of
 from shoal.record.files import RecordFolder
 from shoal.record.record import Record
 from shoal.record.trajectory import Trajectory
@@ -158,7 +159,7 @@ def together(commands: list[Command], agents: int) -> list[Command]:
 
 
 def _told(command: Command) -> str:
-    who = f"buoy {', '.join(map(str, command.agents))}" if command.agents else "all"
+    who = buoys_of(command.agents) if command.agents else "all"
     return f"ordered by mesh, from step {command.step:,} on: {command.words}: {who}"
 
 

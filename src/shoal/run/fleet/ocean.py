@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 import numpy.typing as npt
 
+from shoal.buoy.named import buoys_of
 from shoal.buoy.tether import READINGS, Commands, Tick
 from shoal.core.errors import FleetError, ScenarioError, StrategyError
 from shoal.core.links import MOST_LINKED, unpacked
@@ -119,8 +120,7 @@ class Ocean:
         """
         lost = sorted(id for id in set(ids) if self.simulation.swarm.leaves[id] > self.number)
         if lost and self.number == 0:
-            who = ", ".join(map(str, lost))
-            raise FleetError(f"buoy {who}", "was lost before the first step was done", "start the fleet again")
+            raise FleetError(buoys_of(lost), "lost before the first step was done", "start the fleet again")
         with self.simulation.edit() as now:
             now.swarm.leaves[lost] = self.number
         return lost

@@ -160,7 +160,8 @@ class PacedSea:
         """What is to be told of clocks and of buoys that are silent still."""
         notes = [f"buoy {id} was silent from step {since:,} on" for id, since in sorted(self._silent.items())]
         if self.behind:
-            notes.append(f"the sea was behind the clock by a step or more in {self.behind:,} steps")
+            plural = "s" * (self.behind != 1)
+            notes.append(f"the sea was behind the clock by a step or more in {self.behind:,} step{plural}")
         if self._offsets:
             spread = max(map(abs, self._offsets.values()))
             notes.append(f"clocks were {1000 * spread:.2f} ms apart at most, and set by {1000 * self.furthest:.2f} ms")

@@ -18,6 +18,7 @@ from typing import Any, Self
 
 from shoal.buoy.attend import ORDERED
 from shoal.buoy.mesh import Mesh
+from shoal.buoy.named import buoys_of
 from shoal.buoy.serve import KEY
 from shoal.buoy.tether import Commands, Note, Tick, from_bytes
 from shoal.buoy.trust import NOBODY, Trust
@@ -237,7 +238,7 @@ class Processes:
             if said and self._started[tied.ids].wait() > 0:
                 if not self.tied:
                     raise FleetError(f"buoy {tied.ids[0]}", said, fix or "correct it")
-                found.append(f"buoy {', '.join(map(str, tied.ids))} ended: {said}")
+                found.append(f"{buoys_of(tied.ids)} ended: {said}")
         return found
 
     def _lose(self, tied: Tied) -> list[int]:

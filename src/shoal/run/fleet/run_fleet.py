@@ -9,12 +9,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from shoal.buoy.named import buoys_of
 from shoal.buoy.trust import NOBODY, Trust, key_in
 from shoal.core.errors import FleetError
 from shoal.record.files import RecordFolder
 from shoal.record.record import Record
 from shoal.run.compiling import BUOYS, mark_compiled
-from shoal.run.fleet.kills import Killing, kills_of
+from shoal.run.fleet.kills import Killing, company, kills_of
 from shoal.run.fleet.lockstep import Crowd, run_in_lockstep
 from shoal.run.fleet.log import Log, Onlooker
 from shoal.run.fleet.memory import InMemory
@@ -153,16 +154,17 @@ def _opened(scenario: Scenario, onlooker: Onlooker | None) -> Ocean:
     return ocean
 
 
-def check_terms(scenario: Scenario, terms: Terms) -> None:
-    """Refuse terms that cannot be, and what buoys cannot do, before anything starts.
+def check_terms(scenario: Scenario, terms: Terms) -> list[str]:
+    """Refuse terms that cannot be, and what buoys cannot do, before anything starts; say who is killed with others.
 
     Raises
     ------
     ScenarioError, StrategyError, FleetError : as run_fleet
     """
-    kills_of(terms.kill, scenario.agents)
-    _shares(scenario.agents, terms)
+    kills = kills_of(terms.kill, scenario.agents)
+    shares = _shares(scenario.agents, terms)
     check_buoys_can(scenario, crew_of(scenario))
+    return [] if terms.mesh == "memory" else company(kills, shares)
 
 
 def _shares(agents: int, terms: Terms) -> list[list[int]]:
@@ -192,10 +194,7 @@ def _shares(agents: int, terms: Terms) -> list[list[int]]:
 
 def _lost(lost: list[tuple[int, int]]) -> list[str]:
     steps = sorted({step for step, _ in lost})
-    return [
-        f"lost at step {step:,}: buoy {', '.join(str(id) for then, id in sorted(lost) if then == step)}"
-        for step in steps
-    ]
+    return [f"lost at step {step:,}: {buoys_of(id for then, id in lost if then == step)}" for step in steps]
 
 
 def _measured(facts: list[dict[str, Any]], by_clock: bool) -> list[str]:
@@ -228,13 +227,14 @@ def _measured(facts: list[dict[str, Any]], by_clock: bool) -> list[str]:
         delays, ages = (_summed(facts, name) for name in ("delays", "ages"))
         unheard = ages.pop(-1, 0)
         heard = sum(ages.values())
+        skipped = sum(each["skipped"] for each in facts)
         mean = sum(age * count for age, count in ages.items()) / max(1, heard)
         notes += [
             f"reports arrived {percentile(delays, 0.5)} ms after their step began (median; 99 %: "
             f"{percentile(delays, 0.99)} ms)",
             f"decisions were on reports {mean:.4f} steps old on average; {unheard / max(1, unheard + heard):.3%} of "
             "the reports of those who were there did not come in time",
-            f"{sum(each['skipped'] for each in facts):,} steps passed without a decision of a process",
+            f"{skipped:,} step{'s' * (skipped != 1)} passed without a decision of a process",
         ]
     return notes
 
