@@ -64,8 +64,8 @@ def legend_height(record: Record, width: float, *, halos: bool = False, sensors:
 
 def map_legend_height(record: Record, width: float) -> float:
     """Height of the legend above a trajectory map of a width [inch]."""
-    signs = [*_fleet_signs(record), *_wall_signs(record)]
-    return _height([*(str(sign.get_label()) for sign in signs), "target", "start"], width)
+    walls = [str(sign.get_label()) for sign in _wall_signs(record)]
+    return _height([*_fleet_labels(record), "target", "start", *walls], width)
 
 
 def headroom(axes: "Axes", labels: list[str]) -> None:

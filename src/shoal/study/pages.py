@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Page = tuple[tuple[float, float, float, float], float, float]  # [inch] axes; room right of and above them
-LEFT, RIGHT, TOP, BELOW, BELOW_PHI = 0.55, 0.28, 0.3, 0.45, 0.72  # [inch] around a chart, and below a histogram
+LEFT, RIGHT, TOP, BELOW, BELOW_PHI = 0.55, 0.28, 0.32, 0.45, 0.72  # [inch] around a chart, and below a histogram
 _LABELS = 0.48  # [inch] of ticks and a label below axes
 TALL, NARROWEST = 2.0, 2.2  # [inch] height of a chart; width of one among several, labels included
 
