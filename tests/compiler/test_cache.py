@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numba
 import pytest
+from numba.core.environment import Environment
 
 from shoal.compiler.cache import Cache, write_whole
 from shoal.compiler.late import compiles
@@ -92,3 +93,12 @@ def test_of_users_strategies_the_oldest_go(tmp_path, monkeypatch):
         assert not hits(compiled(tmp_path, made_of=version), 3.0)
     assert len(list(tmp_path.iterdir())) == 3
     assert hits(compiled(tmp_path), 3.0)
+
+
+def test_what_names_a_module_that_is_not_there_is_compiled_anew(tmp_path):
+    scope = {"__name__": "nowhere"}
+    exec("def half(x):\n    return x / 2", scope)
+    for _ in range(2):
+        assert not hits(compiled(tmp_path, scope["half"]), 3.0)
+        Environment._memo.clear()  # as in a new process
+    assert list(tmp_path.iterdir())

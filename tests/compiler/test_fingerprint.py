@@ -108,3 +108,10 @@ def test_and_what_else_is_compiled_in(hashed):
 )
 def test_where_something_cannot_be_told_there_is_none(hashed, text):
     assert hashed({"helper.py": HELPER.replace("GAIN = 2.0", text)}) is None
+
+
+def test_a_text_that_is_executed_has_none():
+    """Its functions are of no module, under whose name another process could look up what they need."""
+    scope = {"__name__": "nowhere"}
+    exec("def half(x):\n    return x / 2", scope)
+    assert fingerprint([scope["half"]]) is None

@@ -69,7 +69,10 @@ class Cache(_CACHE):  # type: ignore[misc]
         if hashlib.sha256(content[_DIGEST:]).digest() != content[:_DIGEST]:
             return None  # the power went as it was written
         _add_runtime_symbols()
-        code, rest = pickle.loads(content[_DIGEST:])
+        try:
+            code, rest = pickle.loads(content[_DIGEST:])
+        except ImportError:
+            return None  # it names a module that this process cannot import
         kinds = tuple(_normalize(signature)[0])
         return _rebuilt(target, code, *rest) if kinds == tuple(rest[2].args) else None  # else of the same name only
 

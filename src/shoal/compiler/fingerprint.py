@@ -48,8 +48,12 @@ def fingerprint(functions: Iterable[Any], *facts: object) -> str | None:
             for piece in _value(each, seen):
                 digest.update(piece + b"\0")
         for each in list(seen.values()):
-            if isinstance(each, FunctionType) and not _is_trusted(_home(each)):
-                _read(each.__globals__["__name__"], files)
+            if isinstance(each, FunctionType):
+                home = _home(each)
+                if home is None:
+                    raise _UnknownError(each)  # of a text given to `exec`: another process has no module to look it up
+                if not _is_trusted(home):
+                    _read(each.__globals__["__name__"], files)
     except (_UnknownError, RecursionError):
         return None
     for name in sorted(files):
