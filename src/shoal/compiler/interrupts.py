@@ -10,6 +10,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from shoal.compiler.garbage import look_as_before, look_rarely
+
 _HEARD = ("SIGINT", "SIGTERM", "SIGHUP")
 
 
@@ -67,7 +69,7 @@ def interrupts_wait() -> Iterator[None]:
 
 
 def wait_for_the_compiler() -> None:
-    """Let signals wait while numba compiles, from now on."""
+    """Let signals, and the search for garbage, wait while numba compiles, from now on."""
     from numba.core import event
 
     listener: Any = event.Listener  # numba has no types that mypy sees
@@ -78,8 +80,10 @@ def wait_for_the_compiler() -> None:
 
         def on_start(self, event: Any) -> None:
             _DEFERRAL.begin()
+            look_rarely()
 
         def on_end(self, event: Any) -> None:
+            look_as_before()
             _DEFERRAL.end()
 
     register("numba:compiler_lock", Compiling())

@@ -29,9 +29,11 @@ def field_words(field: str) -> str:
 
 
 def field_value(field: str, value: Any) -> str:
-    """A varied field and one of its values, for a legend: target speed 3 m/s, k = 20, 15 fast agents."""
+    """A varied field and one of its values, for a legend: target speed 3 m/s, k = 20, 15 fast agents, knn-pso."""
     if field == "fast":
         return f"{value} fast agents"
+    if field == "strategy":
+        return str(value)
     name, _, unit = field_words(field).partition(" [")
     return f"k = {value}" if field == "neighbors" else f"{name} {value}{f' {unit[:-1]}' if unit else ''}"
 

@@ -31,7 +31,8 @@ def find_links(stage, links, world, swarm, radio, number, first, keeps):
     """
     phases = part(stage, PHASES)
     last = first + links.reach.size
-    links.wanted[:] = swarm.neighbors[first:last]
+    for lane in range(links.reach.size):
+        links.wanted[lane] = swarm.neighbors[first + lane]  # one by one: numba would compile text for an array's error
     reports = said(radio, swarm, number)
     measure_distances(
         links, reports.x, reports.y, swarm.fix_x[first:last], swarm.fix_y[first:last], first, world.agents

@@ -65,7 +65,7 @@ def check_words(changes: Mapping[str, Any], also: Iterable[str] = ()) -> None:
     """
     for name, value in changes.items():
         key = name.replace("-", "_")
-        known = [*SHORTHANDS, "density", *TRACK, *Scenario.model_fields, *also]
+        known = list(dict.fromkeys([*SHORTHANDS, "density", *TRACK, *Scenario.model_fields, *also]))
         if "." not in name and key not in known:
             hint = did_you_mean(key, known).rstrip() or f"there are: {', '.join(known)}; or a path such as network.loss"
             raise ScenarioError(name, f"is not a field of a scenario (value {quoted(value)})", hint)
