@@ -77,7 +77,7 @@ class Buoys:
     def said(self, id):
         return (self.folder / f"said-{id}").read_text(encoding="utf-8")
 
-    def wait_for(self, words, ids=None, seconds=40.0):
+    def wait_for(self, words, ids=None, seconds=90.0):
         """Wait until all have said some words."""
         for id in ids if ids is not None else list(self.processes):
             wait_until(lambda id=id: words in self.said(id), lambda id=id: f"buoy {id} says {self.said(id)}", seconds)
@@ -94,8 +94,9 @@ class Buoys:
         """The rows of the logs of a buoy, one log after the other, by field."""
         found = []
         for file in sorted((self.folder / "log").glob(f"buoy-{id}-*.csv")):
-            head, *rows = [line.split(",", 13) for line in file.read_text(encoding="utf-8").splitlines()]
-            found += [dict(zip(head, row, strict=True)) for row in rows]
+            text = file.read_text(encoding="utf-8")  # as far as it is written
+            lines = [line.split(",", 13) for line in text[: text.rfind("\n") + 1].splitlines()]
+            found += [dict(zip(lines[0], row, strict=True)) for row in lines[1:]]
         return found
 
     def close(self):
@@ -104,7 +105,7 @@ class Buoys:
             process.wait()
 
 
-def wait_until(so, else_say=lambda: "", seconds=40.0):
+def wait_until(so, else_say=lambda: "", seconds=90.0):
     until = time.monotonic() + seconds
     while not so():
         assert time.monotonic() < until, else_say()
