@@ -1,8 +1,9 @@
-"""Parts of a stage that kernels hand on without counting references to the arrays in them.
+"""Parts of a stage that kernels hand on whole, and without counting references to the arrays in them.
 
-numba counts a reference to every array of a NamedTuple wherever it is given a name or handed on, 50 of a swarm, and
-takes the pairs out again once kernels are inlined into each other: a fifth of a cold start. What a stage points at is
-Python's for longer than any kernel runs (placed.py); a kernel must neither make such a NamedTuple nor return one.
+numba takes a NamedTuple apart into its numbers wherever a kernel is called, 350 of a swarm, and puts it together again
+in the kernel: half of all code before kernels are inlined into each other. And it counts a reference to every array in
+it, 50 of a swarm, and takes the pairs out again. What a stage points at is Python's for longer than any kernel runs
+(placed.py); a kernel must neither make such a NamedTuple nor return one.
 """
 
 from typing import Any
@@ -22,11 +23,12 @@ _lent: set[type[Any]] = set()
 
 
 def lend(*classes: type[Any]) -> None:
-    """Count no references in NamedTuples of these classes from now on, in this process.
+    """Hand NamedTuples of these classes on whole, and count no references in them, from now on in this process.
 
     Parameters
     ----------
-    classes : of parts of a stage, before a kernel is compiled that has them as arguments
+    classes : of parts of a stage, before a kernel is compiled that has them as arguments; those of which all fields are
+        of one type stay as numba has them
     """
     _lent.update(classes)
 
@@ -36,8 +38,21 @@ class _Borrowed(_MODEL):  # type: ignore[misc]
         return []  # nothing in it is counted
 
 
+class _Whole(_Borrowed):
+    def get_argument_type(self) -> Any:
+        return self.get_value_type()
+
+    def as_argument(self, builder: Any, value: Any) -> Any:
+        return value
+
+    def from_argument(self, builder: Any, value: Any) -> Any:
+        return value
+
+
 def _model(manager: Any, kind: Any) -> Any:
-    return (_Borrowed if kind.instance_class in _lent else _MODEL)(manager, kind)
+    if kind.instance_class not in _lent:
+        return _MODEL(manager, kind)
+    return (_Whole if manager is _manager else _Borrowed)(manager, kind)  # a card has a manager, and calls, of its own
 
 
 _manager.register(types.NamedTuple, _model)

@@ -37,11 +37,13 @@ from shoal.engine.stage import (
     WORLD,
     Addresses,
     Frames,
+    Run,
     Scratch,
 )
 from shoal.metrics.contract import Step
 from shoal.metrics.tally import Tally
 from shoal.world.arena import World
+from shoal.world.disturbances.contract import Nature
 from shoal.world.energy import consume
 from shoal.world.motion import (
     limit_maneuver,
@@ -62,10 +64,11 @@ from shoal.world.radio import (
     send,
     speaks,
 )
+from shoal.world.sea.sea import Sea
 from shoal.world.sensing import sense
 from shoal.world.targets.dispatch import advance_target
 
-lend(Swarm, Radio, Tally, Links, Scratch, Frames)
+lend(World, Swarm, Radio, Nature, Sea, Tally, Links, Scratch, Frames, Run)
 
 SPOILED_AGENTS, SPOILED_TARGETS, SPOILED_DRIFT = 1, 2, 3  # what a run ends with whose numbers are not finite
 
