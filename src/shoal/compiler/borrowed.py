@@ -3,7 +3,7 @@
 numba takes a NamedTuple apart into its numbers wherever a kernel is called, 350 of a swarm, and puts it together again
 in the kernel: half of all code before kernels are inlined into each other. And it counts a reference to every array in
 it, 50 of a swarm, and takes the pairs out again. What a stage points at is Python's for longer than any kernel runs
-(placed.py); a kernel must neither make such a NamedTuple nor return one.
+(placed.py); a kernel must make such a NamedTuple of nothing else, nor return one to Python.
 """
 
 from typing import Any

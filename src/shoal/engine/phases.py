@@ -19,6 +19,7 @@ from shoal.core.plugin_errors import plugin_errors
 from shoal.engine.ahead import Part, compile_ahead, compile_all
 from shoal.engine.frames import keep_frame, keep_links
 from shoal.engine.links import link, link_single, look_at_links, look_at_single, settle, settle_single
+from shoal.engine.listen import Arrived, InTurn, Listeners, Single
 from shoal.engine.many import link_many, look_at_many, settle_many
 from shoal.engine.measure import measure_after_move, measure_before_move, measure_links
 from shoal.engine.nature import disturb_all, drift_targets, hide, launch_agent, receive, sail_all, stop_target
@@ -40,6 +41,7 @@ from shoal.engine.stage import (
     Run,
     Scratch,
 )
+from shoal.engine.step import Now, Parts
 from shoal.metrics.contract import Step
 from shoal.metrics.tally import Tally
 from shoal.world.arena import World
@@ -66,9 +68,11 @@ from shoal.world.radio import (
 )
 from shoal.world.sea.sea import Sea
 from shoal.world.sensing import sense
+from shoal.world.targets.contract import Around
 from shoal.world.targets.dispatch import advance_target
 
 lend(World, Swarm, Radio, Nature, Sea, Tally, Links, Scratch, Frames, Run)
+lend(Parts, Now, Arrived, InTurn, Single, Listeners, Around)  # made of these
 
 SPOILED_AGENTS, SPOILED_TARGETS, SPOILED_DRIFT = 1, 2, 3  # what a run ends with whose numbers are not finite
 
