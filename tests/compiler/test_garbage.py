@@ -35,6 +35,13 @@ def test_who_never_looks_or_more_rarely_is_left_alone():
         assert gc.get_threshold() == own
 
 
+def test_an_end_without_a_beginning_changes_nothing():
+    """Another thread compiled already when numba was first listened to."""
+    gc.set_threshold(700, 10, 10)
+    look_as_before()
+    assert gc.get_threshold() == (700, 10, 10)
+
+
 def test_numba_says_when_it_compiles():
     numba = pytest.importorskip("numba")
     from shoal.compiler.late import compiles, load

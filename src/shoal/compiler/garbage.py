@@ -19,9 +19,8 @@ def look_rarely() -> None:
 
 
 def look_as_before() -> None:
-    """Whoever was the last to end lets Python look as often as before."""
+    """Whoever is the last to end lets Python look as often as before; who began before anybody heard is passed over."""
     with _LOCK:
-        first = _before[0]
-        _before.pop()
-        if not _before:
-            gc.set_threshold(*first)
+        if len(_before) == 1:
+            gc.set_threshold(*_before[0])
+        del _before[-1:]
